@@ -123,7 +123,7 @@ def test_all_files_or_none(tmp_path: Path, existing: str) -> None:
 @pytest.mark.parametrize(
     ("name", "points", "target", "picture", "part"),
     [
-        ("out.ply", np.arange(120), globe().mesh, None, "extension .obj"),
+        ("out.ply", np.arange(120), globe().mesh, None, "one of .obj .glb"),
         ("a\nb.obj", np.arange(120), globe().mesh, None, "printable name"),
         ("out.obj", np.arange(119), globe().mesh, None, "shape"),
         ("out.obj", np.arange(120) + 1, globe().mesh, None, "from 0 to 119"),

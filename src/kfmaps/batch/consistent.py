@@ -18,6 +18,7 @@ from kfmaps._arrays import InvalidInput, refuse
 from kfmaps._threads import one_blas_thread
 from kfmaps.batch.cache import file_digest, load_record, save_record
 from kfmaps.batch.jobs import WorkerPool
+from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import FOLDER as RESULTS
 from kfmaps.batch.results import Result, read_result, write_result, write_rows
@@ -60,7 +61,7 @@ class ConsistentResult:
     """A run whose maps were made to agree."""
 
     results: tuple[Result, ...]  # those given, with their probabilities; of replaced maps the new
-    before: dict[tuple[str, str], Result]  # of replaced maps the old
+    before: dict[Pair, Result]  # of replaced maps the old
     doubted: tuple[str, ...]  # a line for each pair that others contradict and for which nothing better is known
     notes: tuple[str, ...] = ()  # what could not be taken into account
 
@@ -91,8 +92,8 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
 
     ``results``: of the plan's pairs; those that failed are left as they are.
     """
-    known = {(r.source, r.target): r for r in results if r.status == "done"}
-    tasks = [task for task in plan.tasks if (task.pair.source, task.pair.target) in known]
+    known = {r.pair: r for r in results if r.status == "done"}
+    tasks = [task for task in plan.tasks if task.pair in known]
     if not tasks:
         raise refuse("--consistent", "pairs that are matched", "none", "see why the pairs failed")
     scored = list(zip(tasks, pool.map("evidence of pairs", _score_pair, tasks, failures=True), strict=True))
@@ -103,13 +104,10 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
         return ConsistentResult(tuple(results), {}, (), tuple(notes))
     store = _FolderStore(plan, list(good), list(good.values()), known, pool)
     found = synchronize_store(store)
-    changed = {(r.source, r.target): r for r in store.replaced if r.status == "done"}
-    notes += [f"{r.source} → {r.target} stays as it was: {r.reason}" for r in store.replaced if r.status == "failed"]
-    pairs = [(task.pair.source, task.pair.target) for task in store.tasks]
-    chance = dict(zip(pairs, found.repaired.probabilities.tolist(), strict=True))
-    final = tuple(
-        changed.get((r.source, r.target), replace(r, agreement=chance.get((r.source, r.target)))) for r in results
-    )
+    changed = {r.pair: r for r in store.replaced if r.status == "done"}
+    notes += [f"{r.pair} stays as it was: {r.reason}" for r in store.replaced if r.status == "failed"]
+    chance = {t.pair: p for t, p in zip(store.tasks, found.repaired.probabilities.tolist(), strict=True)}
+    final = tuple(changed.get(r.pair, replace(r, agreement=chance.get(r.pair))) for r in results)
     doubted = [c for c in found.repaired.replacements if c.kind == "none"]
     _write_pairs(plan.folder / CONSISTENT / _TABLE, store, found)
     notes += write_shape_statistics(plan.folder / CONSISTENT, store.names, store.shape, found)
@@ -125,7 +123,7 @@ class _FolderStore:
         plan: Plan,
         tasks: list[PairTask],
         scores: list[list[ScoredMap]],
-        results: dict[tuple[str, str], Result],
+        results: dict[Pair, Result],
         pool: WorkerPool,
     ) -> None:
         self.plan, self.tasks, self.scores, self.results, self.pool = plan, tasks, scores, results, pool
@@ -146,7 +144,7 @@ class _FolderStore:
         for change in replacements:
             task = self.tasks[change.edge]
             path = None if change.path is None else self._path(change.edge, change.path)
-            before = self.results[task.pair.source, task.pair.target]
+            before = self.results[task.pair]
             jobs.append(_ReplaceTask(task, change, path, change.label(self.names), before))
         _remove_replacements(self.plan, {job.task.key for job in jobs})
         self.replaced = self.pool.map("replaced maps", _replace_map, jobs)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -17,9 +16,10 @@ from kfmaps.collection.procrustes import generalized_procrustes, thin_plate_warp
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh
+from kfmaps.io.atomic import table_cell
 from kfmaps.io.landmark_files import LandmarkSet, find_curves, landmark_suffix, wide_rows, write_landmark_sets
 from kfmaps.io.named_points import NamedPoints
-from kfmaps.io.text import complete_or_refuse
+from kfmaps.io.text import complete_or_refuse, read_table
 
 CORRECTIONS = "corrections.csv"
 """What somebody has corrected by hand: the one file of a study that :func:`write_study` leaves alone."""
@@ -59,10 +59,7 @@ def write_study(output: Path, study: Sequence[SpecimenLandmarks], suffix: str) -
 def read_study(output: Path) -> tuple[list[SpecimenLandmarks], str]:
     """Read what :func:`write_study` wrote: all specimens, without the landmarks of those left out, and the suffix."""
     try:
-        with open(output / "landmarks.csv", encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-        with open(output / "specimens.csv", encoding="utf-8", newline="") as file:
-            specimens = list(csv.DictReader(file))
+        rows, specimens = read_table(output / "landmarks.csv"), read_table(output / "specimens.csv")
         suffix = landmark_suffix(next((output / "landmarks").iterdir()))
         return [
             _read_specimen(one, [row for row in rows if row["specimen"] == one["specimen"]]) for one in specimens
@@ -74,7 +71,7 @@ def read_study(output: Path) -> tuple[list[SpecimenLandmarks], str]:
 
 def _read_specimen(one: Mapping[str, str], rows: Sequence[Mapping[str, str]]) -> SpecimenLandmarks:
     def column(name: str) -> np.ndarray:
-        return np.array([np.nan if row[name] == "NA" else float(row[name]) for row in rows])
+        return np.array([_number(row[name]) for row in rows])
 
     weights = np.stack([column(f"weight_{i}") for i in (1, 2, 3)], axis=1)
     positions = np.stack([column(axis) for axis in "xyz"], axis=1)
@@ -88,7 +85,7 @@ def _read_specimen(one: Mapping[str, str], rows: Sequence[Mapping[str, str]]) ->
         scan=Path(one["scan"]),
         n_maps=int(one["templates"]),
         verdict=one["verdict"],
-        chance=float("nan" if one["confidence"] == "NA" else one["confidence"]),
+        chance=_number(one["confidence"]),
         misfit=one["reason"],
         space=one["space"],
     )
@@ -99,9 +96,9 @@ def read_corrections(output: Path) -> dict[str, dict[str, tuple[np.ndarray, str]
     path = output / CORRECTIONS
     found: dict[str, dict[str, tuple[np.ndarray, str]]] = {}
     if path.exists():
-        with open(path, encoding="utf-8", newline="") as file, complete_or_refuse(str(path), "a table of corrections"):
-            for row in csv.DictReader(file):
-                point = np.array([np.nan if row[axis] == "NA" else float(row[axis]) for axis in "xyz"])
+        with complete_or_refuse(str(path), "a table of corrections"):
+            for row in read_table(path):
+                point = np.array([_number(row[axis]) for axis in "xyz"])
                 found.setdefault(row["specimen"], {})[row["name"]] = (point, row["flag"])
     return found
 
@@ -109,7 +106,7 @@ def read_corrections(output: Path) -> dict[str, dict[str, tuple[np.ndarray, str]
 def write_corrections(output: Path, corrections: Mapping[str, Corrections]) -> None:
     """Write the corrections of a study, which :func:`read_corrections` reads back."""
     rows = [
-        [specimen, name, *("NA" if np.isnan(x) else repr(x) for x in point.tolist()), word]
+        [specimen, name, *map(table_cell, point), word]
         for specimen, own in corrections.items()
         for name, (point, word) in own.items()
     ]
@@ -170,11 +167,11 @@ def _long_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:
         p = one.points
         for i, name in enumerate(p.names):
             lost = p.vertices[i] < 0
-            place = ["NA"] * 3 if lost else [repr(x) for x in p.points[i].tolist()]
-            weights = ["NA"] * 3 if lost else [f"{w:.9g}" for w in p.place.weights[i].tolist()]
-            numbers = [_cell(x) for x in (p.confidence[i], one.spread[i], one.rival[i])]
+            place = np.full((2, 3), np.nan) if lost else np.stack([p.points[i], p.place.weights[i]])
             at = [-1, -1] if lost else [int(p.vertices[i]), int(p.place.faces[i])]
-            rows.append([one.specimen, name, *place, *at, *weights, *numbers, one.flags[i]])
+            numbers = [table_cell(x, ".4g") for x in (p.confidence[i], one.spread[i], one.rival[i])]
+            weights = [table_cell(x, ".9g") for x in place[1]]
+            rows.append([one.specimen, name, *map(table_cell, place[0]), *at, *weights, *numbers, one.flags[i]])
     return rows
 
 
@@ -184,10 +181,10 @@ def _specimen_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:
     for one in study:
         status = "left out" if one.misfit else "carried" if one.verdict else "template"
         flagged = sum(map(bool, one.open_flags))
-        told = [status, one.verdict, _cell(one.chance), one.n_maps, flagged, one.misfit]
+        told = [status, one.verdict, table_cell(one.chance, ".4g"), one.n_maps, flagged, one.misfit]
         rows.append([one.specimen, *told, one.scan.absolute(), one.space])
     return rows
 
 
-def _cell(value: float) -> str:
-    return "NA" if np.isnan(value) else f"{value:.4g}"
+def _number(cell: str) -> float:
+    return np.nan if cell == "NA" else float(cell)

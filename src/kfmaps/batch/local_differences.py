@@ -15,6 +15,7 @@ from kfmaps.batch.work import map_path, read_shape_mesh
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, face_areas
 from kfmaps.io import load_map
+from kfmaps.io.atomic import table_cell
 from kfmaps.io.landmark_files import fixed_rows
 
 
@@ -67,7 +68,7 @@ def write_local_differences(
     path: Path,
     study: Sequence[SpecimenLandmarks],
     template: Template,
-    results: Mapping[tuple[str, str], Result],
+    results: Mapping[Pair, Result],
     folder: Path,
 ) -> None:
     """Write a row for each specimen and landmark: :func:`local_differences` from the template."""
@@ -75,16 +76,17 @@ def write_local_differences(
     rows = [row for row in fixed_rows(names) if template.points.vertices[row] >= 0]
     table: list[list[object]] = [["specimen", "name", "area", "conformal_distortion"]]
     for one in study:
-        result = results.get((template.specimen, one.specimen))
+        pair = Pair(template.specimen, one.specimen)
+        result = results.get(pair)
         if one.misfit or result is None or result.status != "done" or result.verdict not in GOOD or not rows:
             continue
-        file = map_path(folder, Pair(template.specimen, one.specimen).key)
+        file = map_path(folder, pair.key)
         mesh = read_shape_mesh(str(one.scan))
         place, known, common = target_points(load_map(file), template.mesh, mesh, str(file))
         known = np.ones(len(mesh.vertices), dtype=bool) if known is None else known
         common = np.ones(len(template.mesh.vertices), dtype=bool) if common is None else common
         found = local_differences(place, template.mesh, mesh, template.points.points[rows], known, common)
-        cells = [["NA" if np.isnan(x) else f"{x:.4g}" for x in values] for values in found]
+        cells = [[table_cell(x, ".4g") for x in values] for values in found]
         table += [[one.specimen, names[row], *values] for row, *values in zip(rows, *cells, strict=True)]
     write_rows(path, table)
 

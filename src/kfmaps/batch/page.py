@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import csv
 import io
 import json
 import warnings
@@ -22,6 +21,7 @@ from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps._threads import one_blas_thread
 from kfmaps.api import render
 from kfmaps.batch.consistent import CONSISTENT, ConsistentResult, map_in_use
+from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import (
     BAD,
@@ -35,10 +35,12 @@ from kfmaps.batch.results import (
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_paths
 from kfmaps.batch.work import PairTask, map_path, true_vertices
+from kfmaps.cli.evaluation import Truth
 from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text
+from kfmaps.io.text import read_table
 from kfmaps.viz import Curve, curves_figure, mean_curve, save_figure
 from kfmaps.viz.document import environment, policy
 from kfmaps.viz.figures import make_transparent
@@ -79,13 +81,13 @@ def write_page(
     ``results``: of all pairs in the output folder; ``name``: title, any text; ``worst``: how many of the worst pairs
     are shown as pictures; ``consistent``: what came of making the maps agree.
     """
-    tasks = {(task.pair.source, task.pair.target): task for task in plan.tasks}
+    tasks = {task.pair: task for task in plan.tasks}
     ordered = worst_first(results)
     shown = ordered[:worst] + [r for r in results if r.changed][: 2 * worst]
     pages = _write_pages(plan.folder, tasks, shown)
     changed, specimens = {}, None
     if consistent is not None:
-        replaced = [r for r in consistent.results if r.changed and (r.source, r.target) in consistent.before]
+        replaced = [r for r in consistent.results if r.changed and r.pair in consistent.before]
         changed = _pictures(tasks, replaced, worst, fitting_limit(consistent.results), consistent.before)
         specimens = _specimens(plan)
     page = summary_page(
@@ -93,7 +95,7 @@ def write_page(
         results,
         read_run_spec(plan.folder),
         _pictures(tasks, ordered, worst, fitting_limit(results)),
-        len({(r.source, r.target) for r in results} | tasks.keys()),
+        len({r.pair for r in results} | tasks.keys()),
         pages=pages,
         changed=changed,
         doubted=() if consistent is None else consistent.doubted,
@@ -110,7 +112,7 @@ def summary_page(
     pictures: Mapping[str, bytes],
     pairs: int,
     *,
-    pages: Mapping[tuple[str, str], str] | None = None,
+    pages: Mapping[Pair, str] | None = None,
     changed: Mapping[str, bytes] | None = None,
     doubted: Sequence[str] = (),
     specimens: Mapping[str, Any] | None = None,
@@ -199,8 +201,7 @@ def _specimens(plan: Plan) -> dict[str, Any] | None:
     paths = limit_shape_paths(folder)
     if not paths:
         return None
-    with open(folder / SHAPES, encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = read_table(folder / SHAPES)
     meshes = {t.name: t.path for task in plan.tasks for t in (task.source, task.target)}
     sections = []
     for path in paths:
@@ -251,11 +252,11 @@ def _quiet_mesh(path: str) -> Mesh:
 
 
 def _pictures(
-    tasks: Mapping[tuple[str, str], PairTask],
+    tasks: Mapping[Pair, PairTask],
     results: Iterable[Result],
     count: int,
     limit: float,
-    before: Mapping[tuple[str, str], Result] | None = None,
+    before: Mapping[Pair, Result] | None = None,
 ) -> dict[str, bytes]:
     """Pictures of at most ``count`` pairs by caption; of those with a result ``before``, of the old map too.
 
@@ -264,13 +265,13 @@ def _pictures(
     pictures: dict[str, bytes] = {}
     drawn = 0
     for result in results:
-        task = tasks.get((result.source, result.target))
+        task = tasks.get(result.pair)
         if task is None or drawn == count:
             continue
         try:
             new = {describe_result(result): _picture(task, limit, map_in_use(Path(task.folder), task.key))}
             if before is not None:
-                old = f"before: {describe_result(before[result.source, result.target])}"
+                old = f"before: {describe_result(before[result.pair])}"
                 new = {old: _picture(task, limit, map_path(Path(task.folder), task.key))} | {
                     f"now: {caption}, {result.changed}": png for caption, png in new.items()
                 }
@@ -283,32 +284,32 @@ def _pictures(
 
 def _picture(task: PairTask, limit: float, path: Path) -> bytes:
     """The PNG of a map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
-    source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
-    sizes = len(source.vertices), len(target.vertices)
-    found = load_map(path)
-    truth = true_vertices(task, *sizes)
+    source, target, truth = _read_pair(task)
     with one_blas_thread():
-        return _png(render(found, source, target, truth=truth, limit=limit, text=_TEXT_SIZE, labels=False))
+        return _png(render(load_map(path), source, target, truth=truth, limit=limit, text=_TEXT_SIZE, labels=False))
 
 
-def _write_pages(
-    folder: Path, tasks: Mapping[tuple[str, str], PairTask], results: Iterable[Result]
-) -> dict[tuple[str, str], str]:
+def _read_pair(task: PairTask) -> tuple[Mesh, Mesh, Truth | None]:
+    """Both meshes of a pair and what is known of the truth."""
+    source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
+    return source, target, true_vertices(task, len(source.vertices), len(target.vertices))
+
+
+def _write_pages(folder: Path, tasks: Mapping[Pair, PairTask], results: Iterable[Result]) -> dict[Pair, str]:
     """Write the pages of ``results`` that are not there or older than their map; return addresses of all there are.
 
     A map that cannot be shown has none.
     """
     (folder / _PAGES).mkdir(exist_ok=True)
     for result in results:
-        task = tasks.get((result.source, result.target))
+        task = tasks.get(result.pair)
         if task is None or result.status != "done":
             continue
         page, path = folder / _PAGES / f"{task.key}.html", map_in_use(folder, task.key)
         try:
             if page.exists() and page.stat().st_mtime >= path.stat().st_mtime:
                 continue
-            source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
-            truth = true_vertices(task, len(source.vertices), len(target.vertices))
+            source, target, truth = _read_pair(task)
             with one_blas_thread():
                 html = match_page(
                     load_map(path), source, target, (result.source, result.target), truth=truth, descriptors=False

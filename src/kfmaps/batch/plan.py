@@ -52,7 +52,7 @@ def make_plan(
     todo, results, changed = [], [], 0
     for task in tasks:
         there = read_result(result_path(make.folder, task.key))
-        if there is not None and (there.source, there.target) != (task.pair.source, task.pair.target):
+        if there is not None and there.pair != task.pair:
             got = f"{there.source} and {there.target}"
             raise refuse(f"result {task.key}", f"the result of {task.pair}", got, "rename one of the shapes")
         fits = there is not None and there.is_of(task.settings, task.inputs)

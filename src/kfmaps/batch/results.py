@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from kfmaps.batch.layout import Pair
 from kfmaps.cli.words import UNIT, percent, probability_text
 from kfmaps.io.atomic import csv_text, write_text
 
@@ -58,6 +59,11 @@ class Result:
     curve: tuple[float, ...] = ()  # fraction of points with an error at or below each of CURVE_ERRORS
     notes: tuple[str, ...] = ()
 
+    @property
+    def pair(self) -> Pair:
+        """The pair that it is of."""
+        return Pair(self.source, self.target)
+
     def is_of(self, settings: str, inputs: str) -> bool:
         """Return whether it was made with these settings from these files."""
         return (self.settings, self.inputs) == (settings, inputs)
@@ -65,12 +71,11 @@ class Result:
 
 def describe_result(result: Result) -> str:
     """Return a pair in one line: its error and verdict, or why it failed."""
-    pair = f"{result.source} → {result.target}"
     if result.status == "failed":
-        return f"failed: {pair}: {result.reason}"
+        return f"failed: {result.pair}: {result.reason}"
     parts = [] if result.error_mean is None else [f"mean error {percent(result.error_mean)} {UNIT}"]
     parts += [] if result.confidence is None else [f"{result.verdict} ({probability_text(result.confidence)})"]
-    return ", ".join([pair, *parts])
+    return ", ".join([str(result.pair), *parts])
 
 
 CURVE_ERRORS = tuple(i / 400 for i in range(101))
@@ -103,7 +108,7 @@ def all_results(folder: Path, settings: str) -> list[Result]:
     # A worker that is killed just before it renames a result leaves it under a name that begins with a dot.
     paths = (path for path in sorted((folder / FOLDER).glob("*.json")) if not path.name.startswith("."))
     found = map(read_result, paths)
-    return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: (r.source, r.target))
+    return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: r.pair)
 
 
 def write_rows(path: Path, rows: Iterable[Iterable[object]]) -> None:

@@ -73,7 +73,7 @@ def run_batch(
     new: list[Result] = []
     interrupted, agreed = False, None
     log = log_to(plan.folder)
-    asked = {(task.pair.source, task.pair.target) for task in plan.tasks}
+    asked = {task.pair for task in plan.tasks}
     with _locked(plan.folder), _tidied(plan), WorkerPool(workers, scheduler, progress, log) as pool:
         of, todo, settings = len(plan.tasks), len(plan.todo), plan.spec.digest
         told = {"todo": todo, "pairs": of, "settings": settings, "version": kfmaps.__version__}
@@ -84,9 +84,9 @@ def run_batch(
                     new.append(result)
             if consistent:
                 matched = all_results(plan.folder, plan.spec.digest)
-                agreed = make_consistent(plan, [r for r in matched if (r.source, r.target) in asked], pool)
+                agreed = make_consistent(plan, [r for r in matched if r.pair in asked], pool)
                 for r in (r for r in agreed.results if r.changed):
-                    told = f"{r.source} → {r.target} replaced by {r.changed}: {r.why}"
+                    told = f"{r.pair} replaced by {r.changed}: {r.why}"
                     log("replaced", told, source=r.source, target=r.target, by=r.changed, why=r.why)
         except (KeyboardInterrupt, SystemExit):  # Ctrl-C, or the signal that comes before a time limit
             interrupted = True
@@ -97,10 +97,10 @@ def run_batch(
             raise
         finally:
             pool.close()  # what they are still at is not to end behind the back of the tables
-        better = {} if agreed is None else {(r.source, r.target): r for r in agreed.results}
-        everything = [better.get((r.source, r.target), r) for r in all_results(plan.folder, plan.spec.digest)]
+        better = {} if agreed is None else {r.pair: r for r in agreed.results}
+        everything = [better.get(r.pair, r) for r in all_results(plan.folder, plan.spec.digest)]
         files = _write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
-    results = tuple(r for r in everything if (r.source, r.target) in asked)
+    results = tuple(r for r in everything if r.pair in asked)
     failed = sum(r.status == "failed" for r in results)
     log("end", f"{len(results)} pairs have a result, {failed} of them failed", pairs=len(results), failed=failed)
     return BatchResult(results, len(new), interrupted, files, agreed)
@@ -167,12 +167,9 @@ def _work_left(plan: Plan, shapes: list[ShapeTask]) -> tuple[WorkLeft, WorkLeft]
     """Return the ``shapes`` to prepare and the pairs to match with their sizes, and what earlier runs measured."""
     entries = {t.entry: t for task in plan.tasks for t in (task.source, task.target)}
     vertices = {entry: _vertices(task) for entry, task in entries.items()}
-    sizes = {
-        (task.pair.source, task.pair.target): (vertices[task.source.entry] + vertices[task.target.entry]) / 2
-        for task in plan.tasks
-    }
-    todo = (sizes[task.pair.source, task.pair.target] for task in plan.todo)
-    before = [(sizes[r.source, r.target], r.seconds["total"]) for r in plan.results if r.status == "done"]
+    sizes = {task.pair: (vertices[task.source.entry] + vertices[task.target.entry]) / 2 for task in plan.tasks}
+    todo = (sizes[task.pair] for task in plan.todo)
+    before = [(sizes[r.pair], r.seconds["total"]) for r in plan.results if r.status == "done"]
     return WorkLeft(dict(enumerate(vertices[task.entry] for task in shapes))), WorkLeft(dict(enumerate(todo)), before)
 
 

@@ -325,9 +325,7 @@ def given_landmarks(template: Template) -> SpecimenLandmarks:
     return SpecimenLandmarks(template.specimen, points, none, none, flags, template.scan, space=template.space)
 
 
-def template_errors(
-    templates: Sequence[Template], results: Mapping[tuple[str, str], Result], folder: Path
-) -> np.ndarray:
+def template_errors(templates: Sequence[Template], results: Mapping[Pair, Result], folder: Path) -> np.ndarray:
     """Return how far each template's landmarks come to lie from those of each other one.
 
     (pairs, l); NaN for none, and for points of curves, which may lie anywhere along them.
@@ -335,10 +333,11 @@ def template_errors(
     rows = []
     for a in templates:
         for b in templates:
-            result = results.get((a.specimen, b.specimen))
+            pair = Pair(a.specimen, b.specimen)
+            result = results.get(pair)
             if a is b or result is None or result.status != "done":
                 continue
-            file = map_path(folder, Pair(a.specimen, b.specimen).key)
+            file = map_path(folder, pair.key)
             carried = _carry_points(load_map(file), a.points, a.mesh, b.mesh, str(file), 1.0)
             rows.append(np.linalg.norm(carried.points - b.points.points, axis=1))
             rows[-1][np.setdiff1d(np.arange(len(rows[-1])), fixed_rows(carried.names))] = np.nan

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 import secrets
 import shutil
@@ -114,10 +115,20 @@ def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def write_text(path: str | Path, text: str, force: bool = False) -> None:
-    """Write UTF-8 text, whole or not at all (:func:`atomic_output`); line ends stay as they are."""
+def write_bytes(path: str | Path, content: bytes, force: bool = False) -> None:
+    """Write a file, whole or not at all (:func:`atomic_output`)."""
     with atomic_output(path, force) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="")
+        temporary.write_bytes(content)
+
+
+def write_text(path: str | Path, text: str, force: bool = False) -> None:
+    """Write UTF-8 text, whole or not at all; line ends stay as they are."""
+    write_bytes(path, text.encode(), force)
+
+
+def table_cell(value: float, form: str = "") -> str:
+    """Return a number as tables have it: all its digits, or in the ``form`` of a format string; NA for NaN."""
+    return "NA" if math.isnan(value) else f"{value:{form}}" if form else repr(float(value))
 
 
 def csv_text(rows: Iterable[Iterable[object]]) -> str:

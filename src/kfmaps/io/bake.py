@@ -101,7 +101,7 @@ def can_bake(target: MeshFile, size: int = _SMALLEST) -> bool:
     """Return whether the target has texture coordinates in which every face has room of its own."""
     if target.uv is None or target.uv_faces is None:
         return False
-    corners = target.uv[target.uv_faces]
+    corners = target.corner_uv
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + _TWICE:
         return False  # more than the whole picture
@@ -151,10 +151,8 @@ def with_uv(source: MeshFile) -> MeshFile:
 
 def _uv_at(source: MeshFile, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return texture coordinates (q, 2) of the surface closest to ``points (q, 3)``, and its faces (q,)."""
-    assert source.uv is not None
-    assert source.uv_faces is not None
     found = closest_points(points, source.mesh.vertices, source.mesh.faces)
-    return np.einsum("qi,qij->qj", found.weights, source.uv[source.uv_faces[found.faces]]), found.faces
+    return np.einsum("qi,qij->qj", found.weights, source.corner_uv[found.faces]), found.faces
 
 
 def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredUv:
@@ -168,13 +166,12 @@ def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredU
     vertex.
     """
     source, mesh = with_uv(source), source.mesh
-    assert source.uv is not None
-    assert source.uv_faces is not None
-    uv = np.einsum("ti,tij->tj", place.weights, source.uv[source.uv_faces[place.faces]])
+    drawn = source.corner_uv
+    uv = np.einsum("ti,tij->tj", place.weights, drawn[place.faces])
     uv_faces = target.faces.copy()
     images = point_positions(place, mesh)[target.faces]
     middle, under = _uv_at(source, images.mean(axis=1))
-    grown = [x[:, [1, 2, 0]] - x for x in (source.uv[source.uv_faces[under]], mesh.vertices[mesh.faces[under]])]
+    grown = [x[:, [1, 2, 0]] - x for x in (drawn[under], mesh.vertices[mesh.faces[under]])]
     sizes = np.linalg.norm(grown[0], axis=2), np.linalg.norm(grown[1], axis=2)
     stretch = np.divide(*sizes, out=np.zeros_like(sizes[0]), where=sizes[1] > 0).max(axis=1)
     edges = np.linalg.norm(images[:, [1, 2, 0]] - images, axis=2) * stretch[:, None]
@@ -188,7 +185,7 @@ def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredU
     at, faces = _uv_at(source, inset.reshape(-1, 3))
     at = at.reshape(-1, 3, 2)
     corners = ((at - _INSET * at.mean(axis=1, keepdims=True)) / (1 - _INSET)).reshape(-1, 2)
-    options = source.uv[source.uv_faces[faces]]  # a corner that is a vertex of the source has exactly its coordinates
+    options = drawn[faces]  # a corner that is a vertex of the source has exactly its coordinates
     gap = np.abs(options - corners[:, None]).max(axis=2)
     corners = np.where((gap.min(axis=1) < 1e-7)[:, None], options[np.arange(len(gap)), gap.argmin(axis=1)], corners)
     torn = np.zeros(len(uv_faces), dtype=bool)
@@ -298,12 +295,10 @@ def transfer_texture(
     ``picture``: the source's; ``size``: longer side of the picture in texels; by default the source's, within bounds.
     """
     if can_bake(target):
-        assert target.uv is not None
-        assert target.uv_faces is not None
         pixels = decode_picture(picture)
         side = size or _side(pixels)
         blank = np.zeros((side, side, 3)), np.zeros((side, side), dtype=bool)
-        drawn = bake_texture(source, found, pixels, target.uv[target.uv_faces], *blank)
+        drawn = bake_texture(source, found, pixels, target.corner_uv, *blank)
         return replace(target, picture=encode_png(drawn))
     plain = MeshFile(target.mesh, None, found.uv, found.uv_faces, picture)
     if not found.torn.any() or found.edges is None:

@@ -18,7 +18,7 @@ from kfmaps.fmap.precise import PointMap, check_point_map_precise, nearest_verti
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, load_map, read_landmarks, read_mesh
 from kfmaps.io.named_points import read_landmark_pairs
-from kfmaps.io.record import fan
+from kfmaps.io.record import fan, split_polygons
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
 from kfmaps.shape import Shape
@@ -118,18 +118,10 @@ def _triangles(faces: Any) -> np.ndarray:
         return array.ravel()[fan(np.full(len(array), corners))].astype(np.int64)
     if array.ndim != 1:
         raise refuse("faces", "three vertex numbers per face", f"shape {array.shape}", "give an array (f, 3)")
-    sizes, at = [], 0
-    while at < len(array):
-        sizes.append(int(array[at]))
-        at += sizes[-1] + 1
-        if sizes[-1] < 3:
-            raise refuse("faces", "faces of three corners or more", f"one of {sizes[-1]}", "leave it out")
-    if at != len(array):
-        raise refuse("faces", "a list of counts and corners", "one that is cut short", "check how it was made")
-    counts = np.array(sizes)
-    own = np.ones(len(array), dtype=bool)
-    own[np.cumsum(counts + 1) - (counts + 1)] = False
-    return array[own][fan(counts)].astype(np.int64)
+    corners, sizes = split_polygons(array)
+    if sizes.min() < 3:
+        raise refuse("faces", "faces of three corners or more", f"one of {sizes.min()}", "leave it out")
+    return corners[fan(sizes)]
 
 
 def _meshio(cells: Any) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, refuse
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io.atomic import atomic_output
+from kfmaps.io.atomic import atomic_output, write_bytes
 from kfmaps.io.bake import TransferredUv, can_bake, encode_png, projected_uv, transfer_texture, transfer_uv
 from kfmaps.io.character import transfer_character
 from kfmaps.io.glb import format_glb
@@ -21,6 +21,7 @@ from kfmaps.io.meshes import write_mesh
 from kfmaps.io.obj import format_obj
 from kfmaps.io.partial_map import point_map, precise_points
 from kfmaps.io.record import MeshFile, Picture
+from kfmaps.io.text import check_suffix
 from kfmaps.io.transfer import LOST_GREY, transfer
 
 _PICTURES = (".png", ".jpg", ".jpeg")
@@ -87,9 +88,7 @@ def write_textured(
         On a target without faces, a map that does not fit, a picture that is missing or of another
         format, and as :func:`atomic_output`.
     """
-    path = Path(path)
-    if path.suffix.lower() not in (".obj", ".glb"):
-        raise refuse(f"output {path}", "the extension .obj or .glb", path.suffix or "none", "rename it")
+    path, suffix = Path(path), check_suffix(path, (".obj", ".glb"), "output")
     if any(ord(letter) < 32 for letter in path.name):
         raise refuse(f"output {path}", "a printable name", "a control character", "rename it")
     target = target if isinstance(target, MeshFile) else MeshFile(target)
@@ -97,10 +96,8 @@ def write_textured(
         raise refuse(f"picture {picture}", f"a file {' '.join(_PICTURES)}", "none", "check the name")
     image = _picture(picture, source)
     made = textured(source, target, target_to_source, image, size)
-    if path.suffix.lower() == ".glb":
-        made = transfer_character(source, made, target_to_source)
-        with atomic_output(path, force) as temporary:
-            temporary.write_bytes(format_glb(made))
+    if suffix == ".glb":
+        write_bytes(path, format_glb(transfer_character(source, made, target_to_source)), force)
         return [path]
     given = made.picture == image and picture is not None
     return _write_obj(path, made, Path(picture).suffix if picture and given else None, force)
@@ -195,7 +192,6 @@ def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarr
     if suffix == ".obj" and source.picture and source.uv is not None:
         _write_obj(Path(path), moved, None, force)
     elif suffix == ".glb":
-        with atomic_output(path, force) as temporary:
-            temporary.write_bytes(format_glb(replace(source, morphs={"target": ends - source.mesh.vertices})))
+        write_bytes(path, format_glb(replace(source, morphs={"target": ends - source.mesh.vertices})), force)
     else:
         write_mesh(path, moved.mesh, colors=source.colors, force=force)

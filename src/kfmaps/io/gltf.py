@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from urllib.parse import unquote
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import refuse
 from kfmaps._memory import check_memory
@@ -384,12 +385,7 @@ def _matrix(node: dict[str, Any]) -> np.ndarray:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     result = np.eye(4)
     if "rotation" in node:
-        x, y, z, w = np.array(node["rotation"], dtype=np.float64) / np.linalg.norm(node["rotation"])
-        result[:3, :3] = [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
+        result[:3, :3] = Rotation.from_quat(np.array(node["rotation"], dtype=np.float64)).as_matrix()
     if "scale" in node:
         result[:3, :3] *= np.array(node["scale"], dtype=np.float64).reshape(3)
     if "translation" in node:

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.io.atomic import csv_text, write_text
+from kfmaps.io.atomic import csv_text, table_cell, write_text
 from kfmaps.io.text import REPAIR, complete_or_refuse, is_number, read_text
 
 LPS, RAS = "LPS", "RAS"
@@ -315,7 +315,7 @@ def _write_tps(sets: Sequence[LandmarkSet]) -> str:
         for i, (head, rows) in enumerate(parts):
             lines += [f"CURVES={len(curves)}", head] if i == 1 else [head]
             points = one.points[list(rows)].tolist()
-            lines += [" ".join("NA" if np.isnan(x) else f"{x:.9g}" for x in point) for point in points]
+            lines += [" ".join(table_cell(x, ".9g") for x in point) for point in points]
         lines.append(f"ID={' '.join(one.specimen.split())}")
     return "\n".join(lines) + "\n"
 
@@ -441,7 +441,7 @@ def _write_csv(sets: Sequence[LandmarkSet]) -> str:
     rows = [["specimen", "name", "x", "y", "z"]]
     for one in sets:
         for label, point in zip(one.names, one.points.tolist(), strict=True):
-            rows.append([one.specimen, label, *("NA" if np.isnan(x) else repr(x) for x in point)])
+            rows.append([one.specimen, label, *map(table_cell, point)])
     return csv_text(rows)
 
 
@@ -457,7 +457,7 @@ def wide_rows(sets: Sequence[LandmarkSet]) -> list[list[str]]:
             raise refuse(
                 f"specimen {one.specimen}", "the same landmarks in all of them", "others", "write a long table"
             )
-        rows.append([one.specimen, *("NA" if np.isnan(x) else repr(x) for x in one.points.ravel().tolist())])
+        rows.append([one.specimen, *map(table_cell, one.points.ravel())])
     return rows
 
 

@@ -10,14 +10,14 @@ from typing import IO, Any
 
 import numpy as np
 
-from kfmaps._arrays import InvalidInput, refuse
+from kfmaps._arrays import refuse
 from kfmaps._memory import format_bytes
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
 from kfmaps.io.map_summary import parse_summary, read_record, summarize_match
 from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, real
 from kfmaps.io.matfile import read_mat
-from kfmaps.io.text import REPAIR, read_bytes
+from kfmaps.io.text import REPAIR, check_suffix, complete_or_refuse, read_bytes
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
 
@@ -49,8 +49,7 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
     """
     if not isinstance(match, Match):
         raise refuse("map", "a Match", type(match).__name__, "give what kfmaps.match returned")
-    suffix = Path(path).suffix.lower()
-    check_format(path)
+    suffix = check_format(path)
     check_output(path, force)
     if suffix in (".txt", ".vts"):
         write_vertex_numbers(path, match.target_to_source, force=force)
@@ -92,19 +91,12 @@ def load_map(path: str | Path) -> Match:
         On an unknown extension, a file that is missing, cut short or not of its format, contents that are no map, and
         files of older versions.
     """
-    path, name = Path(path), str(path)
-    check_format(path)
-    suffix = path.suffix.lower()
+    name, suffix = str(path), check_format(path)
     if suffix in (".txt", ".vts"):
         return Match(read_vertex_numbers(path, lost=True))
     data = read_bytes(path)
-    try:
+    with complete_or_refuse(name, f"a complete {suffix} file"):
         content = (_npz_content if suffix == ".npz" else _mat_content)(data, name)
-    except InvalidInput:
-        raise
-    except Exception as error:  # the readers report broken files by whatever they run into
-        got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
-        raise refuse(name, f"a complete {suffix} file", got, REPAIR) from error
     if old := sorted(OLDER.intersection(content)):
         raise refuse(name, "a map of this version of kfmaps", f"an older one (with {old[0]})", "match the shapes again")
     if "target_to_source" not in content:
@@ -118,11 +110,9 @@ def load_map(path: str | Path) -> Match:
     return read_record(Match, summary, f"{name}: summary", check_arrays(content, source.n_vertices, name))
 
 
-def check_format(path: str | Path) -> None:
-    """Raise :class:`InvalidInput` when ``path`` has no extension of a map."""
-    suffix = Path(path).suffix.lower()
-    if suffix not in _FORMATS:
-        raise refuse(f"map {path}", f"one of {' '.join(_FORMATS)}", suffix or "no extension", "rename it")
+def check_format(path: str | Path) -> str:
+    """Return the extension of ``path`` where it is that of a map."""
+    return check_suffix(path, _FORMATS, "map")
 
 
 def check_npy(file: IO[bytes], size: int, name: str) -> float:

@@ -12,7 +12,7 @@ from kfmaps._arrays import KfmapsWarning, check, refuse, shown
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.geometry.topology import topology
-from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.atomic import check_output, write_bytes
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.obj import format_obj, parse_obj
@@ -20,7 +20,7 @@ from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
 from kfmaps.io.record import MeshFile, checked_colors
 from kfmaps.io.stl import parse_stl
-from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes
+from kfmaps.io.text import as_table, check_suffix, clean_text, parse_rows, read_bytes
 from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
@@ -88,11 +88,8 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
 
 def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
     """Read ``path`` as :func:`read_mesh` does (``cloud`` too), with the colours and texture coordinates that it has."""
-    path, name = Path(path), str(path)
-    reader = READERS.get(path.suffix.lower())
-    if reader is None:
-        known = " ".join(READERS)
-        raise refuse(name, f"one of {known}", f"{path.suffix or 'no extension'}", "convert or rename the file")
+    name = str(path)
+    reader = READERS[check_suffix(path, READERS, remedy="convert or rename the file")]
     with np.errstate(all="ignore"):  # wild numbers are refused below
         found = reader(read_bytes(path), name)
     found = _place_unplaced(found, name)
@@ -175,11 +172,6 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
         On an unknown extension, colours that do not fit, and as :func:`atomic_output`.
     """
     check_is_mesh(mesh)
-    writer = _WRITERS.get(Path(path).suffix.lower())
-    if writer is None:
-        got = Path(path).suffix or "no extension"
-        raise refuse(f"output {path}", f"one of {' '.join(_WRITERS)}", got, "choose one of these")
+    writer = _WRITERS[check_suffix(path, _WRITERS, "output", "choose one of these")]
     check_output(path, force)
-    content = writer(mesh, None if colors is None else checked_colors(colors, len(mesh.vertices)))
-    with atomic_output(path, force) as temporary:
-        temporary.write_bytes(content)
+    write_bytes(path, writer(mesh, None if colors is None else checked_colors(colors, len(mesh.vertices))), force)

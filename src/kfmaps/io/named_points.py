@@ -13,7 +13,7 @@ from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, vertex_point_map
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io.atomic import csv_text, write_text
+from kfmaps.io.atomic import csv_text, table_cell, write_text
 from kfmaps.io.index_files import read_landmark_names, read_landmarks
 from kfmaps.io.landmark_files import (
     LandmarkSet,
@@ -272,6 +272,12 @@ def write_named_points(path: str | Path, points: NamedPoints, force: bool = Fals
     rows: list[list[object]] = [["name", "vertex", "x", "y", "z", "confidence"]]
     for i, name in enumerate(points.names):
         known = points.confidence[i]
-        place = ["NA" if np.isnan(x) else repr(x) for x in points.points[i].tolist()]
-        rows.append([name, int(points.vertices[i]), *place, "" if np.isnan(known) else f"{known:.3f}"])
+        rows.append(
+            [
+                name,
+                int(points.vertices[i]),
+                *map(table_cell, points.points[i]),
+                "" if np.isnan(known) else f"{known:.3f}",
+            ]
+        )
     write_text(path, csv_text(rows), force)

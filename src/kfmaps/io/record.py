@@ -76,6 +76,13 @@ class MeshFile:
 
     __repr__ = short_repr
 
+    @property
+    def corner_uv(self) -> np.ndarray:
+        """Texture coordinates of the corners of each face, (f, 3, 2), of a mesh that has such."""
+        assert self.uv is not None
+        assert self.uv_faces is not None
+        return self.uv[self.uv_faces]
+
 
 def fan(sizes: np.ndarray) -> np.ndarray:
     """The triangles that polygons fall into, each polygon a fan around its first corner.
@@ -88,6 +95,19 @@ def fan(sizes: np.ndarray) -> np.ndarray:
     start = np.repeat(first, triangles)
     step = np.arange(len(start)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
     return np.stack([start, start + step + 1, start + step + 2], axis=1)
+
+
+def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the corners of polygons and how many each has, of a list "count, corner, corner, ..." again and again."""
+    starts, at = [], 0
+    while at < len(flat):
+        starts.append(at)
+        at += 1 + max(int(flat[at]), 0)
+    if at != len(flat):
+        raise refuse("faces", "a list of counts and corners", "one that is cut short", "check how it was made")
+    corners = np.ones(len(flat), dtype=bool)
+    corners[starts] = False
+    return flat[corners].astype(np.int64), flat[starts].astype(np.int64)
 
 
 def gathered(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:

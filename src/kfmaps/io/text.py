@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -36,6 +36,14 @@ class Rows:
     def part(self, first: int, last: int) -> Rows:
         """Return lines ``first`` to ``last - 1``; ``values`` stay those of the whole."""
         return Rows(self.values, self.counts[first:last], self.starts[first:last], self.lines[first:last])
+
+
+def check_suffix(path: str | Path, formats: Iterable[str], what: str = "", remedy: str = "rename it") -> str:
+    """Return the extension of ``path``, in lower case, where it is one of ``formats``; ``what`` the file is."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in formats:
+        raise refuse(f"{what} {path}".strip(), f"one of {' '.join(formats)}", suffix or "no extension", remedy)
+    return suffix
 
 
 def read_bytes(path: str | Path) -> bytes:
@@ -78,6 +86,12 @@ def read_csv(path: str | Path) -> list[tuple[int, list[str]]]:
         return [(reader.line_num, [cell.strip() for cell in row]) for row in reader if row]
     except csv.Error as error:
         raise refuse(str(path), "comma-separated values", str(error), REPAIR) from error
+
+
+def read_table(path: str | Path) -> list[dict[str, str]]:
+    """Return the rows of a file of comma-separated values by the titles in its first row."""
+    titles, *rows = (cells for _, cells in read_csv(path))
+    return [dict(zip(titles, cells, strict=True)) for cells in rows]
 
 
 @contextmanager

@@ -13,9 +13,18 @@ from kfmaps._arrays import refuse
 from kfmaps._records import short_repr
 from kfmaps.io.atomic import atomic_output, check_output, csv_text, write_text
 from kfmaps.io.mapfile import check_npy
-from kfmaps.io.text import REPAIR, check_lines, complete_or_refuse, is_number, read_bytes, read_csv, read_text
+from kfmaps.io.text import (
+    REPAIR,
+    check_lines,
+    check_suffix,
+    complete_or_refuse,
+    is_number,
+    read_bytes,
+    read_csv,
+    read_text,
+)
 
-_FORMATS = (".npy", ".csv", ".txt")
+_FORMATS, _RENAME = (".npy", ".csv", ".txt"), "convert or rename it"
 _MOST_LETTERS = 1 << 26
 """Letters of all labels together when each takes the room of the longest, four bytes a letter: a quarter of a GiB."""
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
@@ -53,7 +62,7 @@ def read_values(path: str | Path) -> Values:
         On an unknown extension, a file that is missing, empty, cut short or holds pickled objects, and rows
         of different lengths or kinds.
     """
-    suffix = _format(path)
+    suffix = check_suffix(path, _FORMATS, "values", _RENAME)
     if suffix == ".npy":
         return Values(_npy(read_bytes(path), str(path)))
     if suffix == ".csv":
@@ -69,14 +78,6 @@ def read_values(path: str | Path) -> Values:
         return Values(_texts([line for _, line in lines], str(path)))
     array = _table(rows, str(path))
     return Values(array[:, 0] if array.shape[1] == 1 else array)
-
-
-def _format(path: str | Path) -> str:
-    suffix = Path(path).suffix.lower()
-    if suffix not in _FORMATS:
-        got = suffix or "no extension"
-        raise refuse(f"values {path}", f"one of {' '.join(_FORMATS)}", got, "convert or rename it")
-    return suffix
 
 
 def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
@@ -146,7 +147,7 @@ def write_values(path: str | Path, values: Values, force: bool = False) -> None:
     InvalidInput
         On an unknown extension, more than two dimensions in a text format, and as :func:`atomic_output`.
     """
-    suffix = _format(path)
+    suffix = check_suffix(path, _FORMATS, "values", _RENAME)
     check_output(path, force)
     array = values.array
     if suffix == ".npy":

@@ -12,7 +12,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, fan
+from kfmaps.io.record import MeshFile, fan, split_polygons
 from kfmaps.io.text import REPAIR, complete_or_refuse
 
 REMEDY = "Save the surface as PLY in 3D Slicer or ParaView"
@@ -76,14 +76,7 @@ class _Legacy:
             corners = self.numbers(size, self.line()[1]).astype(np.int64)
             return corners, np.diff(ends)
         self.at = start
-        values = self.numbers(size, "int").astype(np.int64)
-        sizes, at = np.zeros(count, dtype=np.int64), 0
-        for i in range(count):
-            sizes[i] = values[at]
-            at += int(sizes[i]) + 1
-        own = np.ones(size, dtype=bool)
-        own[np.cumsum(sizes + 1) - (sizes + 1)] = False
-        return values[own], sizes
+        return split_polygons(self.numbers(size, "int"))
 
     def field(self, count: int) -> None:
         """Pass over ``count`` arrays that say something of the whole."""

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from kfmaps._arrays import refuse
+from kfmaps.io.text import check_suffix
 from kfmaps.viz.colors import ERROR_MAP, percent_ticks
 
 _FORMATS = ("png", "svg", "pdf")
@@ -40,11 +41,7 @@ def picture_format(path: str | Path) -> str:
     InvalidInput
         For any other extension.
     """
-    kind = Path(path).suffix.lower().removeprefix(".")
-    if kind not in _FORMATS:
-        got = f"'.{kind}'" if kind else "no extension"
-        raise refuse(f"picture {path}", "a name ending in .png, .svg or .pdf", got, "rename it")
-    return kind
+    return check_suffix(path, [f".{kind}" for kind in _FORMATS], "picture")[1:]
 
 
 def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = _DPI) -> None:

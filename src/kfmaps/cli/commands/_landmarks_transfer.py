@@ -14,7 +14,7 @@ import typer
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.batch.landmark_tables import read_corrections, write_study
-from kfmaps.batch.layout import find_collection
+from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.local_differences import write_local_differences
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.progress import RunReport
@@ -103,13 +103,15 @@ def transfer(
         )
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)
-    results = {(r.source, r.target): r for r in outcome.results}
+    results = {r.pair: r for r in outcome.results}
     own = {one.specimen: given_landmarks(one) for one in templates}
     study = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans is in the results
         for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
-            from_templates = {one.specimen: results[one.specimen, name] for one in templates if one.specimen != name}
+            from_templates = {
+                one.specimen: results[Pair(one.specimen, name)] for one in templates if one.specimen != name
+            }
             one = own.get(name) or carry_templates(
                 templates, name, collection.shapes[name], from_templates, plan.folder
             )

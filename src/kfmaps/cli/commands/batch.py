@@ -166,6 +166,6 @@ def _describe_consistent(found: ConsistentResult) -> list[str]:
             errors = (
                 "" if r.error_mean is None else f"; error {percent(r.error_before)}, now {percent(r.error_mean)} {UNIT}"
             )
-            lines.append(f"  {r.source} → {r.target}: {r.changed}; {r.why}{errors}")
+            lines.append(f"  {r.pair}: {r.changed}; {r.why}{errors}")
     lines += [f"  doubted, kept: {line}" for line in found.doubted]
     return lines + [f"  {note}" for note in found.notes]

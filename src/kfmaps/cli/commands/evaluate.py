@@ -19,6 +19,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, check_output, load_map
 from kfmaps.io.partial_map import precise_points
 from kfmaps.io.provenance import map_mesh
+from kfmaps.io.text import check_suffix
 from kfmaps.matching.result import Match
 
 _CURVES = (".csv", ".png", ".svg", ".pdf")
@@ -46,9 +47,7 @@ def evaluate(
 ) -> None:
     """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
     if curve is not None:
-        if curve.suffix.lower() not in _CURVES:
-            got = curve.suffix or "no extension"
-            raise refuse(f"--curve {curve}", f"one of {' '.join(_CURVES)}", got, "rename it")
+        check_suffix(curve, _CURVES, "--curve")
         check_output(curve, force, (map, source, target, symmetric, *(truth or ())))
     if truth_part is not None:
         if part not in ("source", "target"):

@@ -25,6 +25,7 @@ from kfmaps.io import (
 )
 from kfmaps.io.export import write_morph
 from kfmaps.io.provenance import mesh_path, warn_of_change
+from kfmaps.io.text import check_suffix
 from kfmaps.matching.result import Match
 from kfmaps.viz import position_colors
 
@@ -65,15 +66,12 @@ def export(
     force: Force = False,
 ) -> None:
     """Write the target with the source's texture, shape keys and skeleton, or the map in another format."""
-    suffix = output.suffix.lower()
-    if morph and suffix not in _SHAPES:
-        raise refuse("--morph", f"an output {' '.join(_SHAPES)}", suffix or "no extension", "rename it")
+    if morph:
+        check_suffix(output, _SHAPES, "--morph")
     if functional and confidence:
         raise refuse("export", "--functional or --confidence", "both", "run the command twice")
     formats = _MATRICES if functional or confidence else _SHAPES + _MAPS
-    if suffix not in formats:
-        got = suffix or "no extension"
-        raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
+    suffix = check_suffix(output, formats, "output", "choose one of these")
     check_output(output, force, (map, source, target, picture))
     found = load_map(map)
     whole = suffix in _SHAPES

@@ -20,6 +20,7 @@ from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 from kfmaps.io import atomic_output, check_output, read_mesh, read_vertex_numbers
 from kfmaps.io.atomic import write_text
+from kfmaps.io.text import check_suffix
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 from kfmaps.shape import Shape, prepare
@@ -93,8 +94,7 @@ def learn(
     stopped.
     """
     numbers, weights = _numbers(training or []), _losses(losses)
-    if output.suffix not in (".toml", ".pt"):
-        raise refuse(f"output {output}", "a name that ends in .toml or .pt", output.suffix or "none", "choose one")
+    check_suffix(output, (".toml", ".pt"), "output")
     from kfmaps import learn as library  # its absence of PyTorch comes before any work
 
     state_file = output.with_suffix(".pt")
