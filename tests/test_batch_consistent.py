@@ -97,7 +97,7 @@ def test_the_wrong_map_is_replaced_and_no_other(run: tuple[Plan, list[Result]]) 
     assert changed.error_mean < 0.05
     assert changed.agreement is not None
     assert all((r.agreement or 0) > 0.5 for r in found.results)
-    assert found.before["b1", "b3"] == results[[r.target for r in results if r.source == "b1"].index("b3") + 4]
+    assert found.before[Pair("b1", "b3")] == results[[r.target for r in results if r.source == "b1"].index("b3") + 4]
     assert {p: p.read_bytes() for p in before} == before  # the run's own maps are as they were
     ours = load_map(map_in_use(plan.folder, "b1-b3"))
     assert map_in_use(plan.folder, "b1-b3") == _replacement_map(plan.folder, "b1-b3")

@@ -56,21 +56,21 @@ def scans(tmp_path: Path) -> Path:
     return folder
 
 
-def maps(folder: Path, pairs: list[tuple[str, str]], chance: float = 0.9) -> dict[tuple[str, str], Result]:
+def maps(folder: Path, pairs: list[tuple[str, str]], chance: float = 0.9) -> dict[Pair, Result]:
     """True maps of pairs of scans, saved as a run saves them, and their results."""
     (folder / "maps").mkdir(exist_ok=True)
     found = {}
     for a, b in pairs:
         true = Match(np.arange(N), local_confidence=np.full(N, 0.8))
         save_map(map_path(folder, f"{a}-{b}"), true, force=True)
-        found[a, b] = Result(a, b, "done", "", "", verdict="sure", confidence=chance)
+        found[Pair(a, b)] = Result(a, b, "done", "", "", verdict="sure", confidence=chance)
     return found
 
 
 def test_one_template_over_true_maps(scans: Path, tmp_path: Path) -> None:
     (template,) = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
     results = maps(tmp_path, [("a", "b")])
-    one = carry_templates([template], "b", scans / "b.ply", {"a": results["a", "b"]}, tmp_path)
+    one = carry_templates([template], "b", scans / "b.ply", {"a": results[Pair("a", "b")]}, tmp_path)
     np.testing.assert_allclose(one.points.points, read_mesh(scans / "b.ply").vertices[AT], atol=1e-9)
     np.testing.assert_allclose(one.points.confidence, 0.9 * 0.8)
     assert one.flags == ("",) * 5
@@ -92,7 +92,7 @@ def test_the_distance_to_the_best_other_map(scans: Path, tmp_path: Path) -> None
     path = map_path(tmp_path, "a-b")
     turned = np.stack([np.roll(np.arange(N), 7), np.arange(N)[::-1]])
     save_map(path, Match(np.arange(N), alternatives=tuple(turned)), force=True)
-    one = carry_templates([template], "b", scans / "b.ply", {"a": results["a", "b"]}, tmp_path)
+    one = carry_templates([template], "b", scans / "b.ply", {"a": results[Pair("a", "b")]}, tmp_path)
     mesh = read_mesh(scans / "b.ply").vertices
     elsewhere = [mesh[np.argsort(other)[AT]] for other in turned]
     expected = np.min([np.linalg.norm(points - mesh[AT], axis=1) for points in elsewhere], axis=0)
@@ -106,7 +106,7 @@ def test_three_templates_outvote_one_that_is_off(scans: Path, tmp_path: Path) ->
     write_landmark_sets(tmp_path / "c.mrk.json", [wrong], force=True)
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abc"], collection)
     results = maps(tmp_path, [(name, "d") for name in "abc"] + [("a", "b"), ("c", "b")])
-    one = carry_templates(templates, "d", scans / "d.ply", {n: results[n, "d"] for n in "abc"}, tmp_path)
+    one = carry_templates(templates, "d", scans / "d.ply", {n: results[Pair(n, "d")] for n in "abc"}, tmp_path)
     surface = read_mesh(scans / "d.ply")
     np.testing.assert_allclose(one.points.points, surface.vertices[AT], atol=1e-3)
     assert one.flags == ("templates disagree", "", "", "", "")
@@ -130,7 +130,7 @@ def test_templates_agree_within_a_share_of_the_size_of_the_scan(scans: Path, tmp
     write_landmark_sets(tmp_path / "c.mrk.json", [moved], force=True)
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abc"], find_collection(scans))
     results = maps(tmp_path, [(name, "d") for name in "abc"])
-    one = carry_templates(templates, "d", scans / "d.ply", {n: results[n, "d"] for n in "abc"}, tmp_path)
+    one = carry_templates(templates, "d", scans / "d.ply", {n: results[Pair(n, "d")] for n in "abc"}, tmp_path)
     assert one.spread[0] > MAX_SPREAD, "in the unit of the scan, where it means nothing"
     np.testing.assert_allclose(one.points.confidence, 0.72)
     assert one.flags == ("",) * 5
@@ -144,7 +144,7 @@ def test_landmarks_that_a_template_lacks_come_from_the_others(scans: Path, tmp_p
     assert [one.points.names for one in templates] == [LABELS, LABELS]
     np.testing.assert_array_equal(templates[1].points.vertices, [10, -1, 150, 220, 290])
     results = maps(tmp_path, [("a", "c"), ("b", "c")])
-    one = carry_templates(templates, "c", scans / "c.ply", {n: results[n, "c"] for n in "ab"}, tmp_path)
+    one = carry_templates(templates, "c", scans / "c.ply", {n: results[Pair(n, "c")] for n in "ab"}, tmp_path)
     np.testing.assert_allclose(one.points.points, read_mesh(scans / "c.ply").vertices[AT], atol=1e-9)
     assert one.flags == ("",) * 5
 
@@ -152,12 +152,12 @@ def test_landmarks_that_a_template_lacks_come_from_the_others(scans: Path, tmp_p
 def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
     templates = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
     results = maps(tmp_path, [("a", name) for name in "bcd"])
-    results["a", "b"] = replace(results["a", "b"], verdict="unlikely", confidence=0.12)
-    results["a", "c"] = Result("a", "c", "failed", "", "", reason="too large")
+    results[Pair("a", "b")] = replace(results[Pair("a", "b")], verdict="unlikely", confidence=0.12)
+    results[Pair("a", "c")] = Result("a", "c", "failed", "", "", reason="too large")
     study = [given_landmarks(templates[0])]
     for name in "bcd":
         path = scans / f"{name}.ply"
-        study.append(carry_templates(templates, name, path, {"a": results["a", name]}, tmp_path))
+        study.append(carry_templates(templates, name, path, {"a": results[Pair("a", name)]}, tmp_path))
     flagged = replace(study[3], flags=("low confidence", "", "", "", ""))
     lines = _describe_study([study[0], flagged, flagged], templates, np.array([[0.1, 0.5, np.nan, 0.1, 0.1]]))
     assert lines == [
@@ -181,7 +181,7 @@ def test_a_map_that_swaps_left_and_right_is_recognized(scans: Path, tmp_path: Pa
     mesh = read_mesh(scans / "b.ply")
     center = mesh.vertices.mean(axis=0)
     write_mesh(tmp_path / "m.ply", Mesh((mesh.vertices - center) * [1, 1, -1] + center, mesh.faces[:, ::-1]))
-    one = carry_templates([template], "b", tmp_path / "m.ply", {"a": results["a", "b"]}, tmp_path)
+    one = carry_templates([template], "b", tmp_path / "m.ply", {"a": results[Pair("a", "b")]}, tmp_path)
     assert "mirror image" in one.misfit
     points = read_mesh(tmp_path / "m.ply").vertices[AT]
     write_landmark_sets(tmp_path / "m.tps", [LandmarkSet(LABELS, points, "m")])
@@ -298,7 +298,7 @@ def test_points_of_a_curve_slide_and_landmarks_do_not(scans: Path, tmp_path: Pat
     (template,) = read_templates(curve_files(tmp_path, scans, "a"), find_collection(scans))
     assert template.points.names == (*LABELS, *(f"curvecrest_{k}" for k in range(1, 7)))
     results = maps(tmp_path, [("a", "d")])
-    one = carry_templates([template], "d", scans / "d.ply", {"a": results["a", "d"]}, tmp_path)
+    one = carry_templates([template], "d", scans / "d.ply", {"a": results[Pair("a", "d")]}, tmp_path)
     mesh = read_mesh(scans / "d.ply")
     carried = mesh.vertices[[*AT, *RING]]
     fixed = [0, 1, 2, 3, 4, 5, 10]

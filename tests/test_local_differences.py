@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kfmaps.batch.layout import find_collection
+from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.local_differences import local_differences, write_local_differences
 from kfmaps.batch.results import Result
 from kfmaps.batch.transfer_landmarks import given_landmarks, read_templates
@@ -84,7 +84,7 @@ def test_the_table_has_a_row_for_each_landmark_of_good_maps(tmp_path: Path, verd
     save_map(map_path(tmp_path, "a-b"), Match(np.arange(len(source.vertices))))
     one = given_landmarks(template)
     study = [one, replace(one, specimen="b", scan=tmp_path / "b.ply", verdict=verdict)]
-    results = {("a", "b"): Result("a", "b", "done", "", "", verdict=verdict)}
+    results = {Pair("a", "b"): Result("a", "b", "done", "", "", verdict=verdict)}
     write_local_differences(tmp_path / "d.csv", study, template, results, tmp_path)
     with open(tmp_path / "d.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

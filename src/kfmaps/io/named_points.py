@@ -272,12 +272,6 @@ def write_named_points(path: str | Path, points: NamedPoints, force: bool = Fals
     rows: list[list[object]] = [["name", "vertex", "x", "y", "z", "confidence"]]
     for i, name in enumerate(points.names):
         known = points.confidence[i]
-        rows.append(
-            [
-                name,
-                int(points.vertices[i]),
-                *map(table_cell, points.points[i]),
-                "" if np.isnan(known) else f"{known:.3f}",
-            ]
-        )
+        sure = "" if np.isnan(known) else f"{known:.3f}"
+        rows.append([name, int(points.vertices[i]), *map(table_cell, points.points[i]), sure])
     write_text(path, csv_text(rows), force)

@@ -14,7 +14,7 @@ import typer
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.batch.landmark_tables import read_corrections, write_study
-from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.layout import find_collection
 from kfmaps.batch.local_differences import write_local_differences
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.progress import RunReport
@@ -109,12 +109,8 @@ def transfer(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans is in the results
         for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
-            from_templates = {
-                one.specimen: results[Pair(one.specimen, name)] for one in templates if one.specimen != name
-            }
-            one = own.get(name) or carry_templates(
-                templates, name, collection.shapes[name], from_templates, plan.folder
-            )
+            maps = {pair.source: result for pair, result in results.items() if pair.target == name}
+            one = own.get(name) or carry_templates(templates, name, collection.shapes[name], maps, plan.folder)
             study.append(correct_landmarks(one, corrections.get(name, {})))
         errors = template_errors(templates, results, plan.folder)
         said = [one for one in study if one.misfit]

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_positive, refuse
 from kfmaps.api import render
-from kfmaps.batch.layout import Pair
 from kfmaps.batch.page import error_curve_of
 from kfmaps.batch.results import Result, all_results, summarize
 from kfmaps.batch.run_spec import read_run_spec
@@ -111,7 +110,7 @@ def render_grid(
         done = [by_name[name] for name in wanted]
     centre, panels = None, []
     for result in done:
-        path = map_path(folder, Pair(result.source, result.target).key)
+        path = map_path(folder, result.pair.key)
         found = load_map(path)
         if centre is None:
             centre = map_mesh(None, found, "source", path)
