@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -379,7 +379,7 @@ def _check_config(config: object) -> None:
         raise refuse("config", "a Config", type(config).__name__, "give kfmaps.Config() or Config.paper(), say")
 
 
-def _telling(progress: bool | Reporter | None) -> Any:
+def _telling(progress: bool | Reporter | None) -> AbstractContextManager[Reporter | None]:
     """What the stages are told to while the context lasts."""
     if progress is True:
         return Stages()

@@ -108,14 +108,14 @@ def write_page(
 def summary_page(
     name: str,
     results: Sequence[Result],
-    settings: Mapping[str, Any],
+    settings: Mapping[str, object],
     pictures: Mapping[str, bytes],
     pairs: int,
     *,
     pages: Mapping[Pair, str] | None = None,
     changed: Mapping[str, bytes] | None = None,
     doubted: Sequence[str] = (),
-    specimens: Mapping[str, Any] | None = None,
+    specimens: Mapping[str, object] | None = None,
 ) -> str:
     """Return the summary page.
 

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import kfmaps
 from kfmaps._arrays import check_count, refuse
@@ -35,7 +34,7 @@ class RunSpec:
         if len(set(self.landmark_lines)) < len(self.landmark_lines):
             raise refuse("--landmarks", "each line once", "one twice", "leave it out")
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """As plain values, without the number of threads, which changes no result."""
         config = as_dict(self.config)
         del config["threads"]
@@ -60,11 +59,11 @@ def digest_of(values: object, digits: int = 16) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:digits]
 
 
-def _flatten(values: object, name: str = "") -> dict[str, Any]:
+def _flatten(values: object, name: str = "") -> dict[str, object]:
     """Nested mappings as one, with dotted names."""
     if not isinstance(values, Mapping):
         return {name: values}
-    flat: dict[str, Any] = {}
+    flat: dict[str, object] = {}
     for key, value in values.items():
         flat |= _flatten(value, f"{name}.{key}" if name else str(key))
     return flat
@@ -91,7 +90,7 @@ def claim(folder: Path, spec: RunSpec) -> None:
     raise refuse(f"output {folder}", "the settings it was begun with", f"others ({shown})", remedy)
 
 
-def read_run_spec(folder: Path) -> dict[str, Any]:
+def read_run_spec(folder: Path) -> dict[str, object]:
     """Return the settings of an output folder, as plain values with their ``digest``."""
     path = folder / FILE
     try:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -114,7 +113,7 @@ class Accuracy:
     smooth: Smoothness | None = None
     matched: float = 1.0
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
         found = {**numbers_of(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
         if self.matched < 1:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -75,7 +74,7 @@ class PartAccuracy:
     overlap: float | None  # intersection over union, by area of the whole, of the common part found and the true one
     missing: float  # part of the whole's area that the part lacks
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Plain numbers for JSON."""
         known = {"matched": self.matched, "overlap": self.overlap, "missing": self.missing}
         finite = {name: value for name, value in known.items() if value is None or math.isfinite(value)}

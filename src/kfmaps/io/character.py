@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from kfmaps.geometry.similarity import similarity
 from kfmaps.io.mapcontent import check_map
 from kfmaps.io.partial_map import point_map
 from kfmaps.io.record import MeshFile, Skin
+from kfmaps.matching.result import Match
 
 _SURROUNDINGS = 1e-3  # part of the surface over which its turn and stretch by the map are averaged
 _MAX_FACTOR = 2.5  # how much more or less than all of the surface a part of it may be stretched
@@ -23,7 +23,7 @@ _OWN = 0.1
 up to ten times as much: the joint lies there."""
 
 
-def transfer_character(source: MeshFile, target: MeshFile, target_to_source: Any) -> MeshFile:
+def transfer_character(source: MeshFile, target: MeshFile, target_to_source: np.ndarray | Match) -> MeshFile:
     """Return ``target`` with the source's morph targets and skin; as it is where the source has none.
 
     ``source`` and ``target``: surfaces; ``target_to_source (n_t,)``: vertices without a counterpart (−1) do not move

@@ -90,7 +90,7 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
     raise refuse(name, _SHAPES, type(shape).__name__, "give kfmaps.Mesh(vertices, faces)")
 
 
-def _parts(shape: Any) -> tuple[Any, np.ndarray] | None:
+def _parts(shape: Any) -> tuple[ArrayLike, np.ndarray] | None:
     """Vertices and triangles of what is no Mesh and no file; ``None`` where it has none that are known."""
     if isinstance(shape, np.ndarray):
         return (shape, _triangles(())) if shape.ndim == 2 else None

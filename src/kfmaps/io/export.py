@@ -6,7 +6,6 @@ import warnings
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -23,6 +22,7 @@ from kfmaps.io.partial_map import point_map, precise_points
 from kfmaps.io.record import MeshFile, Picture
 from kfmaps.io.text import check_suffix
 from kfmaps.io.transfer import LOST_GREY, transfer
+from kfmaps.matching.result import Match
 
 _PICTURES = (".png", ".jpg", ".jpeg")
 
@@ -48,7 +48,7 @@ def write_textured(
     path: str | Path,
     source: MeshFile,
     target: Mesh | MeshFile,
-    target_to_source: Any,
+    target_to_source: np.ndarray | Match,
     *,
     picture: str | Path | None = None,
     size: int | None = None,
@@ -104,7 +104,11 @@ def write_textured(
 
 
 def textured(
-    source: MeshFile, target: MeshFile, target_to_source: Any, picture: Picture | None = None, size: int | None = None
+    source: MeshFile,
+    target: MeshFile,
+    target_to_source: np.ndarray | Match,
+    picture: Picture | None = None,
+    size: int | None = None,
 ) -> MeshFile:
     """Return the target with the source's texture, as :func:`write_textured` writes it.
 
@@ -158,7 +162,7 @@ def write_colored(
     path: str | Path,
     colors: np.ndarray,
     target: Mesh,
-    target_to_source: Any,
+    target_to_source: np.ndarray | Match,
     *,
     source: Mesh | None = None,
     force: bool = False,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -15,13 +14,14 @@ from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.result import Match
 
 
-def precise_points(found: Any, source: Mesh) -> PointMap | None:
+def precise_points(found: np.ndarray | Match, source: Mesh) -> PointMap | None:
     """Return the points inside triangles of a map file, checked; ``None`` where it has none."""
-    place = found.precise_map if isinstance(found, Match) else None
-    return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
+    if not isinstance(found, Match) or found.precise_map is None:
+        return None
+    return check_point_map_precise(found.precise_map, source, len(found.target_to_source))
 
 
-def point_map(found: Any, source: Mesh, target_to_source: np.ndarray) -> PointMap:
+def point_map(found: np.ndarray | Match, source: Mesh, target_to_source: np.ndarray) -> PointMap:
     """Return a point inside a triangle of a surface for each target vertex, at vertices where ``found`` has no others.
 
     ``target_to_source (n_t,)``: Its vertices. A vertex of no face counts as the nearest that one has; without a

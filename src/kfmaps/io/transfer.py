@@ -26,7 +26,7 @@ LOST_GREY = 160 / 255
 
 
 def transfer(
-    values_s: ArrayLike, target_to_source: Any, faces_s: np.ndarray | None = None, lost: object = None
+    values_s: ArrayLike, target_to_source: ArrayLike | Match, faces_s: np.ndarray | None = None, lost: object = None
 ) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 

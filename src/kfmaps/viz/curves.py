@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps._records import short_repr
@@ -62,7 +62,7 @@ def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
     return Curve(label, np.asarray(thresholds, dtype=np.float64), curves.mean(axis=0), *band)
 
 
-def plot_curve(errors: Mapping[str, Any], *, limit: float = 0.25, title: str | None = None) -> Figure:
+def plot_curve(errors: Mapping[str, ArrayLike], *, limit: float = 0.25, title: str | None = None) -> Figure:
     """Plot the fraction of points that lie within an error of the truth, one curve for each map.
 
     Parameters

@@ -82,12 +82,12 @@ class ReviewServer:
         return json_reply({"saved": len(changes), "landmarks": _landmarks(study[at]), "flags": _count_flags(study[at])})
 
 
-def _check_changes(changes: Any, one: SpecimenLandmarks, mesh: Mesh) -> dict[str, tuple[np.ndarray, str]]:
+def _check_changes(changes: object, one: SpecimenLandmarks, mesh: Mesh) -> dict[str, tuple[np.ndarray, str]]:
     """Return the corrections that the page sent: where each landmark lies on the mesh, and a word."""
     rows = {name: row for row, name in enumerate(one.points.names)}
     found: dict[str, tuple[np.ndarray, str]] = {}
     for change in changes if isinstance(changes, list) and changes else [None]:
-        told: Mapping[str, Any] = change if isinstance(change, Mapping) else {}
+        told: Mapping[str, object] = change if isinstance(change, Mapping) else {}
         name = told.get("name")
         if not isinstance(name, str) or name not in rows:
             raise refuse("corrections", "landmarks of the specimen", repr(name), "reload the page")
@@ -100,7 +100,7 @@ def _check_changes(changes: Any, one: SpecimenLandmarks, mesh: Mesh) -> dict[str
     return found
 
 
-def _check_place(face: Any, weights: Any, mesh: Mesh) -> np.ndarray:
+def _check_place(face: object, weights: object, mesh: Mesh) -> np.ndarray:
     """Return the position of a point of the mesh, given as a face and three weights, neither negative, of sum 1."""
     if type(face) is not int or not 0 <= face < len(mesh.faces):
         raise refuse("corrections", f"faces from 0 to {len(mesh.faces) - 1}", repr(face), "reload the page")
@@ -110,14 +110,14 @@ def _check_place(face: Any, weights: Any, mesh: Mesh) -> np.ndarray:
     return point_positions(PointMap(np.array([face]), np.array([given]) / sum(given)), mesh)[0]
 
 
-def _places(one: SpecimenLandmarks) -> list[dict[str, Any] | None]:
+def _places(one: SpecimenLandmarks) -> list[dict[str, object] | None]:
     """Where each landmark lies, as the page reads it."""
     place = one.points.place
     rows = zip(place.faces, place.weights, one.points.vertices, strict=True)
     return [None if v < 0 else {"face": int(face), "weights": weights} for face, weights, v in rows]
 
 
-def _landmarks(one: SpecimenLandmarks) -> list[dict[str, Any]]:
+def _landmarks(one: SpecimenLandmarks) -> list[dict[str, object]]:
     known = [None if np.isnan(c) else round(float(c), 4) for c in one.points.confidence]
     rows = zip(one.points.names, one.flags, known, _places(one), strict=True)
     return [{"name": name, "flag": flag, "confidence": sure, "place": place} for name, flag, sure, place in rows]

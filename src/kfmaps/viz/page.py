@@ -22,24 +22,24 @@ from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import document, encode_floats, encode_integers
 
 
-def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
+def shape_record(mesh: Mesh, name: str) -> dict[str, object]:
     """Return a mesh as the page reads it: name, positions (centred, unit area), faces."""
     placed = unit_area(mesh).vertices
     placed = placed - (placed.min(axis=0) + placed.max(axis=0)) / 2
     return {"name": name, "positions": encode_floats(placed), "faces": encode_integers(mesh.faces)}
 
 
-def source_record(mesh: Mesh, name: str, colors: np.ndarray | None = None) -> dict[str, Any]:
+def source_record(mesh: Mesh, name: str, colors: np.ndarray | None = None) -> dict[str, object]:
     """Return :func:`shape_record` with colours, by default those of positions, and texture coordinates to transfer."""
     colors = position_colors(mesh) if colors is None else colors
     return {**shape_record(mesh, name), **_painted(colors, projected_uv(mesh.vertices))}
 
 
-def _painted(colors: np.ndarray, plane: np.ndarray) -> dict[str, Any]:
+def _painted(colors: np.ndarray, plane: np.ndarray) -> dict[str, object]:
     return {"colours": encode_integers(np.rint(255 * colors).astype(np.uint8)), "plane": encode_floats(plane)}
 
 
-def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, Any]:
+def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, object]:
     """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
     if match.precise_map is None:
         return {}
@@ -47,7 +47,7 @@ def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, An
     return _painted(*(transfer(values, match, source.faces, lost) for values, lost in given))
 
 
-def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, Any]:
+def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, object]:
     """Return a point map as the page reads it: the map, its links back from the source, its distortion of area.
 
     A vertex without counterpart has the number after the source's last.
@@ -61,7 +61,7 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
+def verdict_record(summary: Mapping[str, Any]) -> dict[str, object] | None:
     """Return the verdict that ``summary`` names, in words; ``None`` where it names none."""
     kind = summary.get("verdict")
     if not isinstance(kind, str) or kind not in VERDICTS:
@@ -70,7 +70,7 @@ def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
     return {"kind": kind, "text": verdict_text(kind, summary.get("landmarks", 0)), "confidence": confidence}
 
 
-def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, Any]:
+def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, object]:
     """Return the source's camera axes, and the rotation from how the source lies to how the target lies.
 
     The rotation is the shapes' own (:func:`~kfmaps.viz.camera.rotation_between`), so that both are seen from
@@ -87,7 +87,7 @@ def check_up(up: str | None) -> str | None:
     return up
 
 
-def _texture_record(shape: MeshFile) -> dict[str, Any]:
+def _texture_record(shape: MeshFile) -> dict[str, object]:
     """The texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
     assert shape.uv is not None
     assert shape.uv_faces is not None
@@ -113,7 +113,7 @@ class ResultPage:
     descriptors: tuple[np.ndarray, np.ndarray] | None = None  # with the same columns on both shapes
     # Anything that JSON can hold: the page knows ``settings``, ``energies``, ``times`` (mappings) and ``residuals`` (a
     # list), and lists all else.
-    summary: Mapping[str, Any] = field(default_factory=dict)
+    summary: Mapping[str, object] = field(default_factory=dict)
     names: tuple[str, str] = ("source", "target")
     up: str | None = None
     common: np.ndarray | None = None  # (n_s,): where it is false the source is grey

@@ -118,7 +118,7 @@ class PickerServer:
         self.runs.cancel(wait=2.0)
         self.server.close()
 
-    def _work(self, pairs: np.ndarray, progress: Progress) -> dict[str, Any]:
+    def _work(self, pairs: np.ndarray, progress: Progress) -> dict[str, object]:
         """Match with landmarks, and keep the map; what the page shows of it."""
         source, target, matcher = self.picker.source, self.picker.target, self.picker.matcher
         assert matcher is not None
@@ -134,7 +134,7 @@ class PickerServer:
         pairs = request.get("pairs") if isinstance(request, dict) else None
         return check_pairs(pairs, self.picker.source, self.picker.target)
 
-    def _write(self, path: Path, request: Any, write: Callable[[bool], None], **told: Any) -> Reply:
+    def _write(self, path: Path, request: Any, write: Callable[[bool], None], **told: object) -> Reply:
         # What this picker wrote itself it may replace; what was there before only when told to.
         allowed = self.picker.force or path in self._written or request.get("overwrite") is True
         if path.exists() and not allowed:

@@ -115,7 +115,7 @@ def review(
         _serve(ReviewServer(study, port, up), {"output": [study]}, browser, json)
 
 
-def _serve(serving: PickerServer | ReviewServer, told: dict[str, Any], browser: bool, json: bool) -> None:
+def _serve(serving: PickerServer | ReviewServer, told: dict[str, object], browser: bool, json: bool) -> None:
     """Say where the page is, open it, and answer until the user interrupts."""
     if json:
         print_json({"address": serving.server.address, **told})

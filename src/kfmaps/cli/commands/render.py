@@ -164,7 +164,7 @@ def _save(figure: Figure, output: Path, dpi: float, json: bool, force: bool) -> 
 
 
 def _results(folder: Path) -> list[Result]:
-    return all_results(folder, read_run_spec(folder)["digest"])
+    return all_results(folder, str(read_run_spec(folder)["digest"]))
 
 
 def _plain(title: str | None) -> str | None:
