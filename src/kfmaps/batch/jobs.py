@@ -73,7 +73,7 @@ class WorkerPool:
         if self._client is None:
             where = _running_workers(self.scheduler) if self.scheduler else _local_workers(self.count)
             self._client = self._stack.enter_context(where)
-            self.n_threads = _n_threads(self._client)
+            self.n_threads = sum(dict(self._client.nthreads()).values())
             self._client.subscribe_topic("all", self._note_event)
         return self._client
 
@@ -169,11 +169,6 @@ class WorkerPool:
                 values[number] = value
                 self.progress(what, len(values), len(items))
         return [values[number] for number in range(len(items))]
-
-
-def _n_threads(client: Client) -> int:
-    threads: Any = client.nthreads()
-    return sum(threads.values())
 
 
 def dask_setup(worker: object) -> None:

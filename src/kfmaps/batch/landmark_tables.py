@@ -10,7 +10,6 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.batch.results import write_rows
 from kfmaps.batch.transfer_landmarks import Corrections, SpecimenLandmarks
-from kfmaps.batch.work import read_shape_mesh
 from kfmaps.collection.differences import components
 from kfmaps.collection.procrustes import generalized_procrustes, thin_plate_warp
 from kfmaps.fmap.precise import PointMap
@@ -18,6 +17,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh
 from kfmaps.io.atomic import table_cell
 from kfmaps.io.landmark_files import LandmarkSet, find_curves, landmark_suffix, wide_rows, write_landmark_sets
+from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import NamedPoints
 from kfmaps.io.text import complete_or_refuse, read_table
 
@@ -142,7 +142,7 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks]) -> list[Path]
     write_rows(folder / "pca_variance.csv", [["component", "variance", "fraction"], *variance])
     base = template.points.points[columns]
     if np.isfinite(base).all():
-        mesh = read_shape_mesh(str(template.scan))
+        mesh = read_shape_mesh(template.scan)
         for sign, word in ((-1, "minus"), (1, "plus")):
             extreme = found.consensus + sign * EXTREME * np.sqrt(parts.variances[0]) * parts.directions[0]
             warped = Mesh(thin_plate_warp(mesh.vertices, base, extreme), mesh.faces)

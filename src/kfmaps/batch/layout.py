@@ -93,6 +93,7 @@ def find_collection(folder: str | Path) -> ShapeFolder:
     found = [p for name in _TRUTH_FOLDERS for p in _files(folder / name)]
     lists = {p.name[:-4]: p for p in found if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
     mirrored = {p.name[:-8]: p for p in found if p.name.endswith(".sym.vts")}
+    landmarks = [p for p in _files(folder / _LANDMARK_FOLDER) if p.suffix in (".txt", ".vts") or landmark_suffix(p)]
     pairs = folder / _PAIRS_FILE
     return ShapeFolder(
         folder,
@@ -100,7 +101,7 @@ def find_collection(folder: str | Path) -> ShapeFolder:
         truth={name: lists[name] for name in shapes if name in lists},
         mirrored={name: mirrored[name] for name in shapes if name in mirrored},
         maps=_pair_truth([p for p in found if p.suffix == ".map"], shapes),
-        landmarks={name: p for p in _files(folder / _LANDMARK_FOLDER) if (name := _landmark_owner(p)) in shapes},
+        landmarks={name: p for p in landmarks if (name := landmark_stem(p)) in shapes},
         pairs=pairs if pairs.is_file() else None,
     )
 
@@ -109,11 +110,6 @@ def _files(folder: Path) -> list[Path]:
     if not folder.is_dir():
         return []
     return sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
-
-
-def _landmark_owner(path: Path) -> str:
-    """The shape that a file of landmarks is called after; empty for another file."""
-    return landmark_stem(path) if path.suffix in (".txt", ".vts") or landmark_suffix(path) else ""
 
 
 def _shapes(folder: Path) -> dict[str, Path]:

@@ -11,12 +11,13 @@ from scipy.spatial import KDTree
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, write_rows
 from kfmaps.batch.transfer_landmarks import GOOD, SpecimenLandmarks, Template, target_points
-from kfmaps.batch.work import map_path, read_shape_mesh
+from kfmaps.batch.work import map_path
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, face_areas
 from kfmaps.io import load_map
 from kfmaps.io.atomic import table_cell
 from kfmaps.io.landmark_files import fixed_rows
+from kfmaps.io.meshes import read_shape_mesh
 
 
 def local_differences(
@@ -81,7 +82,7 @@ def write_local_differences(
         if one.misfit or result is None or result.status != "done" or result.verdict not in GOOD or not rows:
             continue
         file = map_path(folder, pair.key)
-        mesh = read_shape_mesh(str(one.scan))
+        mesh = read_shape_mesh(one.scan)
         place, known, common = target_points(load_map(file), template.mesh, mesh, str(file))
         known = np.ones(len(mesh.vertices), dtype=bool) if known is None else known
         common = np.ones(len(template.mesh.vertices), dtype=bool) if common is None else common

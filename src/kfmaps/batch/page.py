@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import json
 import warnings
@@ -42,7 +41,7 @@ from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text
 from kfmaps.io.text import read_table
 from kfmaps.viz import Curve, curves_figure, mean_curve, save_figure
-from kfmaps.viz.document import environment, policy
+from kfmaps.viz.document import data_address, environment, policy
 from kfmaps.viz.figures import make_transparent
 from kfmaps.viz.matches import values_figure
 from kfmaps.viz.result_pages import match_page
@@ -178,7 +177,7 @@ def _svg(figure: Figure) -> str:
     buffer = io.BytesIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):  # text can be searched
         save_figure(make_transparent(figure), buffer, "svg")
-    return _address("svg+xml", buffer.getvalue())
+    return data_address("image/svg+xml", buffer.getvalue())
 
 
 def _png(figure: Figure) -> bytes:
@@ -187,12 +186,8 @@ def _png(figure: Figure) -> bytes:
     return buffer.getvalue()
 
 
-def _address(kind: str, content: bytes) -> str:
-    return f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
-
-
 def _addresses(pictures: Mapping[str, bytes]) -> list[tuple[str, str]]:
-    return [(caption, _address("png", png)) for caption, png in pictures.items()]
+    return [(caption, data_address("image/png", png)) for caption, png in pictures.items()]
 
 
 def _specimens(plan: Plan) -> dict[str, Any] | None:
@@ -242,7 +237,7 @@ def _variation(path: str | None, known: dict[str, np.ndarray]) -> str:
     values = {f"{kind} differs by": known[f"variation_{kind}"] for kind in DIFFERENCE_KINDS}
     if any(len(v) != len(mesh.vertices) for v in values.values()):
         return ""
-    return _address("png", _png(values_figure(mesh, values)))
+    return data_address("image/png", _png(values_figure(mesh, values)))
 
 
 def _quiet_mesh(path: str) -> Mesh:

@@ -13,7 +13,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.batch.layout import Pair, ShapeFolder
 from kfmaps.batch.results import Result
-from kfmaps.batch.work import map_path, read_shape_mesh
+from kfmaps.batch.work import map_path
 from kfmaps.collection.procrustes import generalized_procrustes, geometric_median, is_mirror_image
 from kfmaps.collection.semilandmarks import slide_semilandmarks
 from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
@@ -32,6 +32,7 @@ from kfmaps.io.landmark_files import (
     read_landmark_sets,
     write_landmark_sets,
 )
+from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import (
     FLIP,
     NamedPoints,
@@ -114,7 +115,7 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
         for one in sets:
             name = _scan_of(one.specimen if len(sets) > 1 else landmark_stem(file), scans, file)
             path = scans.shapes[name]
-            mesh, space = read_shape_mesh(str(path)), mesh_space(path)
+            mesh, space = read_shape_mesh(path), mesh_space(path)
             if len(mesh.faces) == 0:
                 raise refuse(str(path), "a surface with faces", "a point cloud", "Landmarks lie on surfaces")
             given = _name_curve(choose_specimen([one], name, str(file)), landmark_stem(file), name)
@@ -201,10 +202,11 @@ def carry_templates(
     if not used:
         reasons = [r.reason for r in results.values() if r.reason]
         nothing = np.full(len(names), np.nan)
-        points = scatter_points(_nothing(), names, np.zeros(len(names), dtype=bool))
+        lost = replace(templates[0].points, vertices=np.full(len(names), -1))
+        points = scatter_points(lost, names, np.ones(len(names), dtype=bool))
         told = reasons[0] if reasons else "it was not matched"
         return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), path, 0, "failed", misfit=told)
-    mesh = read_shape_mesh(str(path))
+    mesh = read_shape_mesh(path)
     unit = float(np.sqrt(surface_area(mesh)))
     carried, rivals = [], []
     for one in used:
@@ -303,7 +305,7 @@ def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> Speci
     """Return the landmarks of a specimen with what somebody has corrected, which is marked in place of its flag."""
     if not corrections:
         return one
-    points = correct_points(one.points, corrections, read_shape_mesh(str(one.scan)))
+    points = correct_points(one.points, corrections, read_shape_mesh(one.scan))
     words = zip(points.names, one.flags, strict=True)
     return replace(one, points=points, flags=tuple(corrections.get(name, (None, flag))[1] for name, flag in words))
 
@@ -403,9 +405,3 @@ def _all_names(points: NamedPoints, names: tuple[str, ...]) -> NamedPoints:
     there = np.array([name in row for name in names])
     chosen = map_columns(tuple(name for name in names if name in row), lambda values: values[order], points)
     return scatter_points(chosen, names, there)
-
-
-def _nothing() -> NamedPoints:
-    none = np.zeros(0)
-    place = PointMap(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
-    return NamedPoints((), place, np.zeros((0, 3)), np.zeros(0, dtype=np.int64), none, none)

@@ -26,10 +26,11 @@ from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, known_truth, read_vertex_lists
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
-from kfmaps.geometry.mesh import Mesh, vertex_areas
-from kfmaps.io import read_mesh, read_vertex_numbers, save_map
+from kfmaps.geometry.mesh import vertex_areas
+from kfmaps.io import read_vertex_numbers, save_map
 from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.io.map_summary import mean_confidence
+from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_landmark_pairs
 from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match
@@ -229,11 +230,6 @@ def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamp
     )
 
 
-def read_shape_mesh(path: str) -> Mesh:
-    """Read a mesh. A file without faces is a point cloud only when its name says so; else something was lost."""
-    return read_mesh(path, cloud=Path(path).suffix.lower() == ".xyz")
-
-
 def _matched(task: PairTask) -> dict[str, Any]:
     """Match, save the map, and give the fields of the result."""
     source, target = load_prepared(task.source), load_prepared(task.target)
@@ -333,6 +329,6 @@ def _landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> 
         return None
     if any(map(landmark_suffix, task.landmarks)):
         files = Path(task.source.path), Path(task.target.path)
-        meshes = [read_shape_mesh(str(file)) for file in files]  # prepared shapes have another unit
+        meshes = [read_shape_mesh(file) for file in files]  # prepared shapes have another unit
         return read_landmark_pairs(task.landmarks, meshes, files)[0]
     return np.stack(read_vertex_lists(task.landmarks, (n_s, n_t)), axis=1)

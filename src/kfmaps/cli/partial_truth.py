@@ -103,23 +103,15 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
     errors = summarize_errors(precise_errors(whole, said, true))
     true_common = _true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)
-    ours = _common_vertices(found, part)
-    share = None
-    if ours is not None:
+    overlap, share = found.partial.overlap_source, None
+    if part == "source" or overlap is not None:
+        ours = points >= 0 if part == "source" else np.asarray(overlap) > COMMON
         share = float(areas[ours & true_common].sum() / max(areas[ours | true_common].sum(), 1e-300))
     matched = float(known.mean())
     if part == "source":
         matched = float(areas[(points >= 0) & true_common].sum() / max(areas[true_common].sum(), 1e-300))
     missing = 1 - float(areas[true_common].sum() / areas.sum())
     return PartAccuracy(errors, matched, share, missing)
-
-
-def _common_vertices(found: Match, part: str) -> np.ndarray | None:
-    """The whole's vertices that the map says to be common; ``None`` where the file does not tell."""
-    if part == "source":
-        return found.target_to_source >= 0
-    values = found.partial.overlap_source
-    return None if values is None else np.asarray(values) > COMMON
 
 
 def _carried_on(

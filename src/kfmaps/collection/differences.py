@@ -91,7 +91,8 @@ def limit_shape(
     gradients = (np.swapaxes(Y, 1, 2) @ (values[:, :, None] * Y)).mean(axis=0)
     means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
     Y = (Y @ functions)[:, :, :size]
-    return LimitShape(Y * _signs(Y), np.maximum(means[:size], 0.0))
+    signs = np.where((Y**3).sum(axis=(0, 1)) < 0, -1.0, 1.0)  # each mostly positive in the shapes' own functions
+    return LimitShape(Y * signs, np.maximum(means[:size], 0.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,12 +146,6 @@ def _normalised(maps: np.ndarray) -> np.ndarray:
     areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
     values, functions = np.linalg.eigh(areas)
     return maps @ (functions / np.sqrt(np.maximum(values, 1e-9 * values[-1]))) @ functions.T
-
-
-def _signs(maps: np.ndarray) -> np.ndarray:
-    """Such that each latent function is mostly positive in the shapes' own functions."""
-    sums = (maps**3).sum(axis=(0, 1))
-    return np.where(sums < 0, -1.0, 1.0)
 
 
 def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:

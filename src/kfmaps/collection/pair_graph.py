@@ -11,6 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import minimum_spanning_tree
+from scipy.spatial.distance import pdist, squareform
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
 from kfmaps.descriptors.spectral import heat_signature
@@ -60,11 +61,7 @@ def signature_distances(signatures: np.ndarray) -> np.ndarray:
         Symmetric, 0 on the diagonal.
     """
     check(signatures, "signatures", shape=(None, None), finite=True)
-    squares = (signatures**2).sum(axis=1)
-    gram = signatures @ signatures.T
-    found = np.sqrt(np.maximum(squares[:, None] + squares[None, :] - 2 * gram, 0.0) / signatures.shape[1])
-    np.fill_diagonal(found, 0.0)
-    return (found + found.T) / 2
+    return squareform(pdist(signatures)) / np.sqrt(signatures.shape[1])
 
 
 def star_graph(count: int, centre: int) -> Pairs:

@@ -11,7 +11,7 @@ from kfmaps._records import short_repr
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.closest_points import closest_points
-from kfmaps.geometry.connectivity import component_labels
+from kfmaps.geometry.connectivity import component_labels, half_edges
 from kfmaps.geometry.mesh import Mesh, face_areas
 
 
@@ -75,7 +75,7 @@ def posed_pair(
 
 def _components(faces: np.ndarray) -> np.ndarray:
     """Return the component of each face, (f,); faces that share an edge are connected."""
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges = np.sort(half_edges(faces), axis=1)
     _, edge = np.unique(edges, axis=0, return_inverse=True)
     rows = np.tile(np.arange(len(faces)), 3)
     return component_labels(len(faces) + edge.max() + 1, rows, len(faces) + edge.ravel())[1][: len(faces)]
@@ -91,7 +91,7 @@ def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:
     while True:
         component = _components(faces)
         faces = faces[component == np.bincount(component, face_areas(Mesh(mesh.vertices, faces))).argmax()]
-        forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+        forth = half_edges(faces)
         code, back = forth @ [len(keep), 1], forth @ [1, len(keep)]
         rim = np.bincount(forth[~np.isin(code, back), 0], minlength=len(keep))
         touching = rim > 1

@@ -9,6 +9,7 @@ from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
 from kfmaps.geometry.cloud_surface import outward_faces
+from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import unit_rows
 
 _Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -116,9 +117,8 @@ def _triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
 
 def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:
     """Return whether ``faces`` are one closed oriented manifold of that genus using all ``count`` vertices."""
-    half = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    forth = half[:, 0] * count + half[:, 1]
-    back = half[:, 1] * count + half[:, 0]
+    half = half_edges(faces)
+    forth, back = half @ [count, 1], half @ [1, count]
     once = len(np.unique(forth)) == len(forth)
     paired = np.array_equal(np.sort(forth), np.sort(back))
     used = len(np.unique(faces)) == count

@@ -10,6 +10,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps.fmap.convert import check_point_map
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
 from kfmaps.geometry.clean import clean_mesh
+from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
 from kfmaps.geometry.surface_points import surface_point_distances
@@ -137,7 +138,7 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
     turned = np.cross(images[faces[:, 1]] - images[faces[:, 0]], images[faces[:, 2]] - images[faces[:, 0]])
     over = np.einsum("fi,fi->f", turned, there[faces].sum(axis=1)) < 0
     sizes = face_areas(target)
-    ends = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    ends = np.unique(np.sort(half_edges(faces), axis=1), axis=0)
     before = np.linalg.norm(target.vertices[ends[:, 0]] - target.vertices[ends[:, 1]], axis=1)
     after = np.linalg.norm(images[ends[:, 0]] - images[ends[:, 1]], axis=1)
     scale = np.sqrt(surface_area(source) / surface_area(target))

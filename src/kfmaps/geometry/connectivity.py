@@ -42,6 +42,11 @@ def proper_faces(faces: np.ndarray) -> np.ndarray:
     return (faces != np.roll(faces, 1, axis=1)).all(axis=1)
 
 
+def half_edges(faces: np.ndarray) -> np.ndarray:
+    """Return the edges of ``faces (f, 3)`` as they run around each face, (3 f, 2)."""
+    return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+
+
 def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
     """Return the edges that only one face has.
 

@@ -34,10 +34,6 @@ def _parse_xyz(data: bytes, name: str) -> MeshFile:
     return MeshFile(Mesh(columns[:, :3], np.zeros((0, 3), dtype=np.int64)))
 
 
-def _format_glb(mesh: Mesh, colors: np.ndarray | None) -> bytes:
-    return format_glb(MeshFile(mesh, colors))
-
-
 READERS = {
     ".off": parse_off,
     ".obj": parse_obj,
@@ -49,7 +45,12 @@ READERS = {
     ".gltf": parse_gltf,
     ".xyz": _parse_xyz,
 }
-_WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": _format_glb}
+_WRITERS = {
+    ".off": format_off,
+    ".obj": format_obj,
+    ".ply": format_ply,
+    ".glb": lambda *parts: format_glb(MeshFile(*parts)),
+}
 
 _MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
@@ -84,6 +85,11 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
         unreferenced vertices, and faces without area. All of them are kept.
     """
     return read_mesh_file(path, cloud=cloud).mesh
+
+
+def read_shape_mesh(path: str | Path) -> Mesh:
+    """Read a mesh. A file without faces is a point cloud only when its name says so; else something was lost."""
+    return read_mesh(path, cloud=Path(path).suffix.lower() == ".xyz")
 
 
 def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:

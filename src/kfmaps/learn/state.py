@@ -15,7 +15,7 @@ from kfmaps._records import short_repr
 from kfmaps.io import atomic_output
 from kfmaps.settings.merge import FORMAT, read_learned
 from kfmaps.viz.curves import COLORS
-from kfmaps.viz.figures import TEXT
+from kfmaps.viz.figures import TEXT, style_axes
 
 
 @dataclass(frozen=True)
@@ -136,8 +136,5 @@ def learning_figure(history: Sequence[Epoch], *, truth: bool = True) -> Figure:
     lower.xaxis.get_major_locator().set_params(integer=True)
     for ax, name in ((upper, "training loss"), (lower, "held-out error × 100" if truth else "held-out loss")):
         ax.set_ylabel(name, fontsize=10, color=TEXT)
-        ax.spines[["top", "right"]].set_visible(False)
-        ax.grid(True, color="#e4e4e4", linewidth=0.6)
-        ax.set_axisbelow(True)
-        ax.tick_params(colors=TEXT, labelsize=9)
+        style_axes(ax)
     return figure

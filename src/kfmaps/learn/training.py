@@ -216,9 +216,9 @@ class _Run:
 
     def loss(self, pair: TrainingPair, rng: np.random.Generator) -> torch.Tensor:
         """Return the weighted losses of a pair."""
-        o = self.options
-        settings: dict[str, Any] = {"solver": o.solver, "operator_rtol": o.operator_rtol, "temperature": o.temperature}
-        return pair_loss(self.model, pair, o.losses, rng=rng, **settings)
+        o, model = self.options, self.model
+        rtol, heat = o.operator_rtol, o.temperature
+        return pair_loss(model, pair, o.losses, solver=o.solver, operator_rtol=rtol, temperature=heat, rng=rng)
 
     def judge(self, loss: float) -> float:
         """Return the mean over the held-out pairs; ``loss`` where there are none."""
@@ -231,8 +231,8 @@ class _Run:
         for i, pair in enumerate(pairs):
             self.progress(stage, i / len(pairs))
             if errors and pair.truth is not None:
-                settings: dict[str, Any] = {"solver": self.options.solver, "operator_rtol": self.options.operator_rtol}
-                values.append(point_error(self.model, pair, **settings))
+                solver, rtol = self.options.solver, self.options.operator_rtol
+                values.append(point_error(self.model, pair, solver=solver, operator_rtol=rtol))
             else:
                 with torch.no_grad():
                     values.append(float(self.loss(pair, rng)))

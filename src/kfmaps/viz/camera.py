@@ -136,18 +136,18 @@ def view_by_truth(source_view: View, source: np.ndarray, target: np.ndarray) -> 
 
     It is the same view, unless the rotation that best carries the source onto the target turns by more than 45 degrees.
     """
-    turn, alike = fit_rotation(source - source.mean(axis=0), target - target.mean(axis=0))
-    if alike < _LIKENESS or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= _SAME_VIEW:
+    turn, alike = fit_rotation(source, target)
+    if alike < _LIKENESS or not _is_turned(turn):
         return source_view
     return View(turn @ source_view.towards, turn @ source_view.up)
 
 
 def fit_rotation(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the rotation (3, 3) that best carries centred ``source`` (q, 3) onto ``target``, and how well (Kabsch
-    1976).
+    """Return the rotation (3, 3) that best carries ``source`` (q, 3) onto ``target`` (Kabsch 1976), and how well.
 
-    How well is the correlation between both, from -1 to 1.
+    Both are centred. How well is the correlation between them, from -1 to 1.
     """
+    source, target = (points - points.mean(axis=0) for points in (source, target))
     turn, scale, _ = similarity(source, target)
     return turn.T, scale * float(np.linalg.norm(source)) / max(float(np.linalg.norm(target)), 1e-300)
 
@@ -167,14 +167,11 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
     first, alike = np.eye(3), 0.0
     if target_to_source is not None:
         known = np.asarray(target_to_source) >= 0
-        if known.all():
-            first, alike = fit_rotation(a[target_to_source], b)
-        elif known.any():
-            ends = a[np.asarray(target_to_source)[known]], b[known]
-            first, alike = fit_rotation(*(x - x.mean(axis=0) for x in ends))
+        if known.any():
+            first, alike = fit_rotation(a[np.asarray(target_to_source)[known]], b[known])
     if alike >= _LIKENESS and _are_unlike(source, target, np.asarray(target_to_source)):
         turn = broad_side(target).axes().T @ broad_side(source).axes()
-        return turn if np.rad2deg(Rotation.from_matrix(turn).magnitude()) > _SAME_VIEW else None
+        return turn if _is_turned(turn) else None
     if alike < _LIKENESS:
         other = np.linalg.eigh(b.T @ b)[1]
         first = other @ np.diag([1, 1, np.sign(np.linalg.det(other @ axes.T))]) @ axes.T
@@ -182,8 +179,13 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
     some_a, some_b = (points[:: max(1, len(points) // _SAMPLES)] for points in (a, b))
     misfits = [_misfit(some_a @ turn.T, some_b) for turn in turns]
     best = int(np.argmin(misfits))
-    small = np.rad2deg(Rotation.from_matrix(turns[best]).magnitude()) <= _SAME_VIEW
-    return turns[best] if misfits[best] < _CLEARLY * _misfit(some_a, some_b) and not small else None
+    better = misfits[best] < _CLEARLY * _misfit(some_a, some_b)
+    return turns[best] if better and _is_turned(turns[best]) else None
+
+
+def _is_turned(turn: np.ndarray) -> bool:
+    """Whether a rotation is too large for both shapes to be seen from the same side."""
+    return bool(np.rad2deg(Rotation.from_matrix(turn).magnitude()) > _SAME_VIEW)
 
 
 def _are_unlike(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> bool:

@@ -16,7 +16,7 @@ from kfmaps._records import short_repr
 from kfmaps.cli.words import UNIT
 from kfmaps.fmap.evaluate import error_curve
 from kfmaps.viz.colors import percent_ticks
-from kfmaps.viz.figures import TEXT, NotebookFigure
+from kfmaps.viz.figures import TEXT, NotebookFigure, style_axes
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
@@ -143,7 +143,4 @@ def _axes(ax: Axes, end: float) -> None:
     ax.xaxis.set_major_formatter(percent_ticks())
     ax.set_xlabel(f"geodesic error ({UNIT})", fontsize=10, color=TEXT)
     ax.set_ylabel("points within that error", fontsize=10, color=TEXT)
-    ax.spines[["top", "right"]].set_visible(False)
-    ax.grid(True, color="#e4e4e4", linewidth=0.6)
-    ax.set_axisbelow(True)
-    ax.tick_params(colors=TEXT, labelsize=9)
+    style_axes(ax)

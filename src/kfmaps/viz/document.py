@@ -73,6 +73,11 @@ def _json_block(data: object) -> str:
     return text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")
 
 
+def data_address(kind: str, content: bytes) -> str:
+    """Return the address of a picture that holds it; ``kind``: its media type."""
+    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
 def environment(package: str) -> Environment:
     """Return the templates of a package's ``templates`` folder; whatever is put into them is escaped."""
     return Environment(loader=PackageLoader(package), autoescape=True, undefined=StrictUndefined, trim_blocks=True)

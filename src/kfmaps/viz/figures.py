@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import IO
 
 from matplotlib import rc_context
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -85,6 +86,14 @@ def make_transparent(figure: Figure) -> Figure:
     for text in figure.findobj(Text):
         text.set_color(_MIDDLE_GREY)
     return figure
+
+
+def style_axes(ax: Axes) -> None:
+    """Give axes of curves a light grid and two sides."""
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.grid(True, color="#e4e4e4", linewidth=0.6)
+    ax.set_axisbelow(True)
+    ax.tick_params(colors=TEXT, labelsize=9)
 
 
 def add_error_bar(

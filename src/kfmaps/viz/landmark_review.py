@@ -11,9 +11,9 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.batch.landmark_tables import read_corrections, read_study, write_corrections, write_study
 from kfmaps.batch.transfer_landmarks import CHECKED, CORRECTED, SpecimenLandmarks, correct_landmarks
-from kfmaps.batch.work import read_shape_mesh
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.viz.document import document
 from kfmaps.viz.page import check_up, shape_record, views_record
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
@@ -49,7 +49,7 @@ class ReviewServer:
         else:
             one = study[self._names[number]]
         template = next(one for one in shown if not one.verdict)
-        source, target = (read_shape_mesh(str(each.scan)) for each in (template, one))
+        source, target = (read_shape_mesh(each.scan) for each in (template, one))
         data = {
             "kind": "review",
             "up": self.up or "auto",
@@ -72,7 +72,7 @@ class ReviewServer:
         at = next((i for i, one in enumerate(study) if one.specimen == name and not one.misfit), None)
         if at is None:
             raise refuse("specimen", "one of the study", repr(name), "reload the page")
-        mesh = read_shape_mesh(str(study[at].scan))
+        mesh = read_shape_mesh(study[at].scan)
         changes = _check_changes(request.get("changes"), study[at], mesh)
         corrections = read_corrections(self.study)
         corrections[study[at].specimen] = {**corrections.get(study[at].specimen, {}), **changes}

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 import io
 from html import escape
 
 from matplotlib.figure import Figure
 from rich.console import Console
 
+from kfmaps.viz.document import data_address
 from kfmaps.viz.figures import make_transparent
 
 _DPI = 72  # resolution of a picture
@@ -27,8 +27,7 @@ def figure_html(figure: Figure, words: str) -> str:
     """Return a figure as an image that a light and a dark notebook can show; ``words`` say what it is."""
     buffer = io.BytesIO()
     make_transparent(figure).savefig(buffer, format="png", dpi=_DPI)
-    data = base64.b64encode(buffer.getvalue()).decode("ascii")
-    return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">'
+    return f'<img alt="{escape(words)}" src="{data_address("image/png", buffer.getvalue())}">'
 
 
 def in_notebook() -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,7 +18,7 @@ from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import broad_side, fit_rotation, rotation_between
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.document import document, encode_floats, encode_integers
+from kfmaps.viz.document import data_address, document, encode_floats, encode_integers
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, object]:
@@ -92,9 +91,9 @@ def _texture_record(shape: MeshFile) -> dict[str, object]:
     assert shape.uv is not None
     assert shape.uv_faces is not None
     assert shape.picture is not None
-    data = base64.b64encode(shape.picture.data).decode("ascii")
     corners = encode_integers(shape.uv_faces.ravel())
-    return {"uv": encode_floats(shape.uv), "corners": corners, "picture": f"data:{shape.picture.kind};base64,{data}"}
+    picture = data_address(shape.picture.kind, shape.picture.data)
+    return {"uv": encode_floats(shape.uv), "corners": corners, "picture": picture}
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +158,4 @@ def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -
     known = np.asarray(target_to_source) >= 0
     if not known.any():
         return np.eye(3)
-    there = source.vertices[np.asarray(target_to_source)[known]]
-    here = target.vertices[known] - target.vertices[known].mean(axis=0)
-    return fit_rotation(here, there - there.mean(axis=0))[0]
+    return fit_rotation(target.vertices[known], source.vertices[np.asarray(target_to_source)[known]])[0]

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
 from kfmaps._arrays import check
+from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import Mesh, face_normals, vertex_normals
 from kfmaps.viz.camera import View, automatic_view
 
@@ -21,7 +22,7 @@ _ENOUGH = 24000  # triangles of even colour below which each is divided into fou
 
 def _is_watertight(faces: np.ndarray, count: int) -> bool:
     """Return whether each edge of the faces is run through as often one way as the other: nothing shows inside."""
-    forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    forth = half_edges(faces)
     return np.array_equal(np.sort(forth @ [count, 1]), np.sort(forth @ [1, count]))
 
 

@@ -12,21 +12,18 @@ from kfmaps._arrays import refuse
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
 from kfmaps.io import (
-    MeshFile,
     Values,
     check_map,
     check_output,
     load_map,
-    read_mesh_file,
     save_map,
     write_colored,
     write_textured,
     write_values,
 )
 from kfmaps.io.export import write_morph
-from kfmaps.io.provenance import mesh_path, warn_of_change
+from kfmaps.io.provenance import read_shape
 from kfmaps.io.text import check_suffix
-from kfmaps.matching.result import Match
 from kfmaps.viz import position_colors
 
 _SHAPES = (".obj", ".ply", ".off", ".glb")
@@ -76,10 +73,11 @@ def export(
     found = load_map(map)
     whole = suffix in _SHAPES
     shape_s, shape_t = (
-        _shape(given, found, side, map) if whole or given is not None else None
+        read_shape(given, found, side, map) if whole or given is not None else None
         for given, side in ((source, "source"), (target, "target"))
     )
-    _check(found, shape_s, shape_t)
+    n_s, n_t = (None if one is None else len(one.mesh.vertices) for one in (shape_s, shape_t))
+    check_map(found, n_s, n_t, lost=True)
     if functional:
         if not hasattr(found, "functional_map"):
             raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")
@@ -104,16 +102,3 @@ def export(
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
         write_colored(output, colors, shape_t.mesh, found, source=shape_s.mesh, force=force)
     report_files(output, as_json=json)
-
-
-def _shape(given: Path | None, found: Match, side: str, map: Path) -> MeshFile:
-    """The shape ``side``, by default the file that the map names."""
-    path = mesh_path(given, found, side, map)
-    warn_of_change(found, side, path)
-    return read_mesh_file(path)
-
-
-def _check(found: Match, source: MeshFile | None, target: MeshFile | None) -> None:
-    n_s = None if source is None else len(source.mesh.vertices)
-    n_t = None if target is None else len(target.mesh.vertices)
-    check_map(found, n_s, n_t, lost=True)

@@ -21,9 +21,10 @@ from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import check_output, read_mesh, read_values, save_map
+from kfmaps.io import check_output, read_values, save_map
 from kfmaps.io.map_summary import summarize_match
 from kfmaps.io.mapfile import check_format
+from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match as matched
@@ -135,11 +136,8 @@ def run(
 
 
 def _read(path: Path, config: Config) -> Mesh:
-    """A mesh with enough vertices for ``config``.
-
-    A file without faces is a point cloud only when its name says so; else something was lost.
-    """
-    mesh = read_mesh(path, cloud=path.suffix.lower() == ".xyz")
+    """A mesh with enough vertices for ``config``."""
+    mesh = read_shape_mesh(path)
     if len(mesh.vertices) <= config.n_eigenfunctions:
         wanted = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
         remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"

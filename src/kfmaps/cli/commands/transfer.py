@@ -12,14 +12,16 @@ from kfmaps._arrays import refuse
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import Values, check_output, load_map, read_mesh, read_values, write_values
+from kfmaps.io import Values, check_output, load_map, read_values, write_values
 from kfmaps.io.landmark_files import check_landmark_format, mesh_space
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
 from kfmaps.io.partial_map import Counterparts, find_counterparts, precise_points
-from kfmaps.io.provenance import mesh_path, warn_of_change
+from kfmaps.io.provenance import mesh_path, read_shape
 from kfmaps.io.transfer import transfer as transfer_values
 from kfmaps.io.transfer import transfer_back, transfer_by_functions
 from kfmaps.matching.result import Match
+
+_SIDES = ("source", "target")
 
 
 def transfer(
@@ -76,25 +78,19 @@ def _carried(
         _, mesh, ways = _both(found, map, given)
         return Values(transfer_back(read.array, ways, mesh, gone), read.columns)
     if products is not None:
-        sides = _shape(found, "source", given[0], map), _shape(found, "target", given[1], map)
-        return Values(transfer_by_functions(read.array, found, *sides, products), read.columns)
+        source, target = (read_shape(path, found, side, map).mesh for side, path in zip(_SIDES, given, strict=True))
+        return Values(transfer_by_functions(read.array, found, source, target, products), read.columns)
     faces = None
     if found.precise_map is not None and read.array.dtype.kind == "f":
-        shape = _shape(found, "source", given[0], map)
+        shape = read_shape(given[0], found, "source", map).mesh
         precise_points(found, shape)
         faces = shape.faces
     return Values(transfer_values(read.array, found, faces, gone), read.columns)
 
 
-def _shape(found: Match, side: str, given: Path | None, map: Path) -> Mesh:
-    path = mesh_path(given, found, side, map)
-    warn_of_change(found, side, path)
-    return read_mesh(path)
-
-
 def _both(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
     """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
-    source, target = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
+    source, target = (read_shape(path, found, side, map).mesh for side, path in zip(_SIDES, given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
             raise refuse(side, "a surface with faces", "a point cloud", "leave --points and --back out")
@@ -107,7 +103,7 @@ def _points(
     source, target, ways = _both(found, map, given)
     trust = getattr(found, "local_confidence", None)
     confidence = None if trust is None else np.asarray(trust)
-    paths = [mesh_path(path, found, side, map) for side, path in zip(("source", "target"), given, strict=True)]
+    paths = [mesh_path(path, found, side, map) for side, path in zip(_SIDES, given, strict=True)]
     here, there = paths[::-1] if back else paths
     mesh, space = target if back else source, mesh_space(here)
     named = read_named_points(values, mesh, specimen=here.stem, space=space)

@@ -16,6 +16,7 @@ from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.arap import arap_energy, build_arap, rotations
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.coarsen import CoarseProxy, embedded_deformation
+from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_normals
 from kfmaps.matching.partial.samples import PartPair, PartSurface
 from kfmaps.registration.deformable import (
@@ -112,7 +113,7 @@ def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, who
     found = closest_points(x, whole.mesh.vertices, whole.mesh.faces)
     there = whole.surface.normals[whole.mesh.faces[found.faces]].mean(axis=1)
     cosine = np.einsum("ij,ij->i", vertex_normals(Mesh(x, rest.faces)), there)
-    ends = np.concatenate([rest.faces[:, [0, 1]], rest.faces[:, [1, 2]], rest.faces[:, [2, 0]]])
+    ends = half_edges(rest.faces)
     before, after = (np.linalg.norm(y[ends[:, 0]] - y[ends[:, 1]], axis=1) for y in (rest.vertices, x))
     longer = np.divide(after, before, out=np.ones_like(after), where=before > 0)
     inside = _is_inside(found, whole)
