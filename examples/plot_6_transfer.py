@@ -11,7 +11,6 @@ from dataclasses import replace
 import numpy as np
 
 import kfmaps
-from kfmaps.io import transfer
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.viz import Panel, grid_figure, match_figure
 
@@ -32,7 +31,7 @@ result = kfmaps.match(source, target, config, landmarks=landmarks)
 # Labels: each source vertex belongs to the landmark nearest to it along the surface.
 
 parts = kfmaps.geodesic_distances(pair.source, landmarks[:, 0]).argmin(axis=0)
-parts_on_target = transfer(parts, result.target_to_source)
+parts_on_target = kfmaps.transfer(parts, result)
 print("labels:", parts.shape, "->", parts_on_target.shape)
 
 palette = np.array([[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233]]) / 255

@@ -26,9 +26,9 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
-from kfmaps.io import transfer as carried
 from kfmaps.io.atomic import write_text
 from kfmaps.io.convert import LandmarksLike, MapLike, ShapeLike, TruthLike, as_landmarks, as_map, as_mesh, is_file
+from kfmaps.io.transfer import transfer as carried
 from kfmaps.matching import match as matching
 from kfmaps.matching.result import Match
 from kfmaps.shape import Shape
@@ -55,7 +55,9 @@ def match(
     Many candidate maps are made and compared (:mod:`kfmaps.matching.search`), and the answer says how sure it is.
     Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
     contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
-    one fit is made, in which landmarks settle which way round a symmetric shape goes.
+    one fit is made, in which landmarks settle which way round a symmetric shape goes. Where ``config.partial`` says
+    that one shape is a part of the other, or their boundaries do, it is placed there, and vertices without a
+    counterpart have −1 (:mod:`kfmaps.matching.partial`).
 
     Parameters
     ----------

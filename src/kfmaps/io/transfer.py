@@ -28,30 +28,11 @@ LOST_GREY = 160 / 255
 def transfer(
     values_s: ArrayLike, target_to_source: ArrayLike | Match, faces_s: np.ndarray | None = None, lost: object = None
 ) -> np.ndarray:
-    """Carry values from the vertices of the source to those of the target.
+    """Carry values from the vertices of the source to those of the target, as :func:`kfmaps.transfer` does.
 
-    Parameters
-    ----------
-    values_s : (n_s, ...) array
-        Functions, labels, colours: anything with a row per source vertex.
-    target_to_source : (n_t,) int64 or Match
-        A source vertex for each target vertex.
-    faces_s : (f_s, 3) int64, optional
-        The source's faces: with those, functions (floating numbers) are mixed between the corners of the points inside
-        triangles that the map file has. Labels and whole numbers are those of the nearest vertex.
-    lost : optional
-        What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
-
-    Returns
-    -------
-    (n_t, ...) array
-        Of the same dtype: row j is ``values_s[target_to_source[j]]``, or the mean of three rows.
-
-    Raises
-    ------
-    InvalidInput
-        When the map names a vertex that has no value, or says of itself that the source has another
-        number of vertices.
+    ``values_s (n_s, ...)``; ``target_to_source``: (n_t,) or a Match; ``faces_s (f_s, 3)``: the source's, with which
+    floating numbers are mixed between the corners of the points inside triangles that a match has; ``lost``: what
+    vertices without a counterpart get.
     """
     values = np.asarray(values_s)
     if values.ndim == 0:

@@ -39,25 +39,11 @@ def match(
     progress: Progress | None = None,
     probes: tuple[ShapeSamples, ShapeSamples] | None = None,
 ) -> Match:
-    """Find for each vertex of ``target`` the corresponding vertex of ``source``.
+    """Find for each vertex of ``target`` the corresponding vertex of ``source``, as :func:`kfmaps.match` does.
 
-    Many candidate maps are made and compared (:mod:`kfmaps.matching.search`), and the answer says how sure it is.
-    Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
-    contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
-    one fit is made, in which landmarks settle which way round a symmetric shape goes.
-
-    Where ``config.partial`` says that one shape is a part of the other, or their boundaries and how one fits into the
-    other do, it is placed there by distances and SHOT (:mod:`kfmaps.matching.partial`) and vertices without a
-    counterpart have −1.
-
-    ``source`` and ``target``: a :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it
-    must come from the same settings of the basis, SHOT and the numbers of functions; ``config``: ``Config()`` when not
-    given; ``landmarks (l, 2)``: pairs "source
-    vertex, target vertex", 0-based; ``descriptors``: of the user's own, used beside those that the configuration names;
-    ``rng``: the same seed gives the same answer; ``progress``: ``progress(stage, done)`` with done from 0 to 1.
-    ``probes``: What the search with this ``rng`` needs to know of each shape, from
-    :func:`kfmaps.matching.search.scoring_samples`. They save an eighth of the time where a shape is matched many times,
-    and change nothing.
+    ``landmarks (l, 2)``: pairs "source vertex, target vertex", 0-based; ``probes``: what the search with this ``rng``
+    needs to know of each shape, from :func:`kfmaps.matching.search.scoring_samples`. They save an eighth of the time
+    where a shape is matched many times, and change nothing.
     """
     config = config or Config()
     prepared = prepare_both(source, target, config, progress=progress)
