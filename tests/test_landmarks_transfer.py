@@ -77,7 +77,7 @@ def test_one_template_over_true_maps(scans: Path, tmp_path: Path) -> None:
     assert np.isnan(one.spread).all()
     assert np.isnan(one.rival).all()
     assert (one.misfit, one.space) == ("", "LPS")
-    low = maps(tmp_path, [("a", "b")], chance=0.6)["a", "b"]
+    low = maps(tmp_path, [("a", "b")], chance=0.6)[Pair("a", "b")]
     one = carry_templates([template], "b", scans / "b.ply", {"a": low}, tmp_path)
     assert one.flags == ("low confidence",) * 5
     gone = drop_unsure(one, 0.5).points
