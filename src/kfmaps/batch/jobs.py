@@ -73,7 +73,8 @@ class WorkerPool:
         if self._client is None:
             where = _running_workers(self.scheduler) if self.scheduler else _local_workers(self.count)
             self._client = self._stack.enter_context(where)
-            self.n_threads = sum(dict(self._client.nthreads()).values())
+            threads: Any = self._client.nthreads()
+            self.n_threads = sum(threads.values())
             self._client.subscribe_topic("all", self._note_event)
         return self._client
 
