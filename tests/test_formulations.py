@@ -396,6 +396,17 @@ def test_transport_is_what_it_minimises(asarray, blur):
     assert same == pytest.approx(told, rel=1e-6)
 
 
+def test_the_majorizer_of_transport_is_the_cost_of_its_plan(numbers):
+    """At every map, where the plan is that of one."""
+    source, target, *_, E = numbers
+    C = E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5
+    penalty = transport_penalty(C, source, target)
+    plan, term = penalty.plan(C), penalty.majorizer(C)
+    for other in (C, 0.0 * C, 2.0 * C + 0.1):
+        costs = _costs(other, penalty.functions_s, penalty.functions_t)
+        assert value(term, other) == pytest.approx((plan * costs).sum(), rel=1e-9)
+
+
 def test_spatial_of_equal_shapes_is_nothing_but_blur(numbers):
     """Where every point has its image, the sharper plan moves its area there and costs the less."""
     source, *_ = numbers

@@ -138,7 +138,7 @@ class RunReport:
     :data:`~kfmaps._progress.CountProgress`.
     """
 
-    def __init__(self, quiet: bool = False) -> None:
+    def __init__(self, quiet: bool) -> None:
         self._quiet, self._console = quiet, Terminal(highlight=False)
         self._draws = self._console.is_terminal and not quiet
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

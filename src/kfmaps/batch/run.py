@@ -106,15 +106,13 @@ def run_batch(
     return BatchResult(results, len(new), interrupted, files, agreed)
 
 
-def _match_pairs(
-    plan: Plan, pool: WorkerPool, callback: Callback | None = None, log: Log | None = None
-) -> Iterator[Result]:
+def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: Log) -> Iterator[Result]:
     """Prepare the shapes and match the pairs that the plan leaves to do; the results, in the order in which they come.
 
     When a worker dies, Dask hands its task to another, which keeps what is finished and begins the rest anew. A task
     that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
     """
-    log, callback = log or (lambda *_, **__: None), callback or (lambda _status, _result: None)
+    callback = callback or (lambda _status, _result: None)
     _check_workers(plan, pool)
     for task in plan.todo:
         result_path(plan.folder, task.key).unlink(missing_ok=True)

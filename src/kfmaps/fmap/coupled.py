@@ -18,6 +18,8 @@ from kfmaps.fmap.losses import Penalty
 from kfmaps.fmap.terms import Term
 from kfmaps.geometry.basis import Basis
 
+_MAX_STEPS, _RTOL = 100, 1e-6  # it ends when the objective falls by less than this part of it
+
 
 @dataclass(frozen=True, eq=False)
 class CoupledBases:
@@ -43,10 +45,8 @@ def couple_bases(
     values_s: Array,
     values_t: Array,
     cross: Array,
-    weight: float = 1.0,
-    steps: int = 100,
+    weight: float,
     start: Array | None = None,
-    rtol: float = 1e-6,
 ) -> CoupledBases:
     """Joint approximate diagonalisation of two Laplacians, coupled by corresponding functions.
 
@@ -65,8 +65,6 @@ def couple_bases(
         correspondence of all functions.
     weight : float
         Of the coupling.
-    steps : int
-        At most; it ends when the objective falls by less than ``rtol``.
     start : (k_t, k_s), optional
         A functional map; ``U_t`` starts at its polar factor (identity: ``U_s``), so ``k_t = k_s`` with it.
     """
@@ -92,11 +90,11 @@ def couple_bases(
         return 0.5 * sum(off) - float(xp.sum((pull @ U_s)[:, : min(k_t, k_s)] * U_t[:, : min(k_t, k_s)]))
 
     history = [objective()]
-    for _ in range(steps):
+    for _ in range(_MAX_STEPS):
         U_s = nearest_orthogonal(_tangent(sides[0], U_s, kept(sides[0], U_s)) + _padded(pull.T @ U_t, k_s))
         U_t = nearest_orthogonal(_tangent(sides[1], U_t, kept(sides[1], U_t)) + _padded(pull @ U_s, k_t))
         history.append(objective())
-        if history[-2] - history[-1] <= rtol * max(abs(history[-2]), 1e-300):
+        if history[-2] - history[-1] <= _RTOL * max(abs(history[-2]), 1e-300):
             break
     return CoupledBases(U_s, U_t, np.asarray(history))
 

@@ -142,8 +142,8 @@ def _solve_quadratic(
 class BidirectionalWeights:
     """How strongly the two maps ``C`` and ``D`` of a pair are tied; see :func:`fit_bidirectional`."""
 
-    inverse: float = 1.0
-    adjoint: float = 0.0
+    inverse: float
+    adjoint: float
 
 
 @dataclass(frozen=True, eq=False)

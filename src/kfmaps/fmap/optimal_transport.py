@@ -26,6 +26,9 @@ from kfmaps.fmap.terms import GramTerm, Term
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import stratified_samples
 
+_STIFFNESS = 10.0
+"""``ρ / ε``: how dear it is to move less or more than a point's area, against a blurred plan."""
+
 
 @dataclass(frozen=True, eq=False)
 class TransportPenalty:
@@ -100,16 +103,15 @@ def _costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
     return xp.where(cost > 0, cost, xp.zeros_like(cost))
 
 
-def _transport(cost: Array, a: Array, b: Array, blur: float, stiffness: float = 10.0) -> tuple[Array, float]:
+def _transport(cost: Array, a: Array, b: Array, blur: float) -> tuple[Array, float]:
     """Unbalanced optimal transport for ``cost (m, n)`` between masses ``a (m,)`` and ``b (n,)``, and its value.
 
     Potentials ``f``, ``g`` of rows and columns are improved in turn; what the scalings have gathered is put into them
-    from time to time, so that nothing under- or overflows. ``stiffness`` is ``ρ / ε``: how dear it is to move less or
-    more than a point's area, against a blurred plan.
+    from time to time, so that nothing under- or overflows.
     """
     xp = namespace(cost)
     tiny = 1e-300  # keeps logarithms finite
-    damped = stiffness / (1.0 + stiffness)  # ρ / (ρ + ε)
+    damped = _STIFFNESS / (1.0 + _STIFFNESS)  # ρ / (ρ + ε)
     scaled = -cost / blur
     f = -damped * _log_sum(scaled + xp.log(b)[None, :], 1)
     g = -damped * _log_sum(scaled + (xp.log(a) + f)[:, None], 0)
@@ -130,7 +132,7 @@ def _transport(cost: Array, a: Array, b: Array, blur: float, stiffness: float = 
     f, g = f + up, g + vp
     plan = a[:, None] * xp.exp(scaled + f[:, None] + g[None, :]) * b[None, :]
     # The value by duality, exact where rows and columns have settled.
-    one = stiffness * (xp.sum(a * (1.0 - xp.exp(-f / stiffness))) + xp.sum(b * (1.0 - xp.exp(-g / stiffness))))
+    one = _STIFFNESS * (xp.sum(a * (1.0 - xp.exp(-f / _STIFFNESS))) + xp.sum(b * (1.0 - xp.exp(-g / _STIFFNESS))))
     dual = float(one) + float(xp.sum(a)) * float(xp.sum(b)) - float(xp.sum(plan))
     return plan, blur * dual
 

@@ -97,7 +97,7 @@ def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarr
     return face, texel, weights
 
 
-def can_bake(target: MeshFile, size: int = _SMALLEST) -> bool:
+def can_bake(target: MeshFile) -> bool:
     """Return whether the target has texture coordinates in which every face has room of its own."""
     if target.uv is None or target.uv_faces is None:
         return False
@@ -105,7 +105,7 @@ def can_bake(target: MeshFile, size: int = _SMALLEST) -> bool:
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + _TWICE:
         return False  # more than the whole picture
-    _, texel, _ = _find_texels(corners, size, size)
+    _, texel, _ = _find_texels(corners, _SMALLEST, _SMALLEST)
     hits = np.bincount(texel)
     # Texels on an edge that two faces share count for both: those are few, and no more than one in each row of a face.
     return bool(len(texel) and np.count_nonzero(hits > 1) <= _TWICE * np.count_nonzero(hits))

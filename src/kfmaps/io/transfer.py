@@ -60,7 +60,7 @@ def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | No
     return np.where((~finite & counted).any(axis=1), values[nearest], mixed).astype(values.dtype)
 
 
-def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
+def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any) -> np.ndarray:
     """Put ``lost``, by default that of :func:`transfer`, into the rows ``gone (n,)`` of ``values (n, ...)``."""
     if not gone.any():
         return values
@@ -85,9 +85,7 @@ def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: 
     return _fill_lost(_interpolate(values_t, ways.back, target.faces, nearest), ~ways.source, lost)
 
 
-def transfer_by_functions(
-    values: np.ndarray, found: Match, source: Mesh, target: Mesh, products: int, threads: int | None = None
-) -> np.ndarray:
+def transfer_by_functions(values: np.ndarray, found: Match, source: Mesh, target: Mesh, products: int) -> np.ndarray:
     """Carry functions ``values (n_s, ...)`` by the functional map and products of eigenfunctions, (n_t, ...) float64.
 
     See :func:`kfmaps.fmap.transfer.transfer_functions`. Eigenfunctions are found anew and ``C = Φ_tᵀ A_t Φ_s[map]``
@@ -106,7 +104,7 @@ def transfer_by_functions(
     if products > k_s:
         raise refuse("--products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
     k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)
-    plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, registration=None, threads=threads)
+    plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, registration=None)
     plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_descriptor="none", shot=False))
     across = reindexing(prepare(source, plain, name="source"), prepare(target, plain, name="target"))
     points = across.part_s.to_clean[found.target_to_source[across.part_t.to_original]]

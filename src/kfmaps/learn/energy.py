@@ -153,8 +153,7 @@ class _Implicit(torch.autograd.Function):
 
 def differentiable_minimum(
     energy: Energy,
-    solver: CG = CG(rtol=1e-10, max_iter=2000),  # noqa: B008
-    start: torch.Tensor | None = None,
+    solver: CG,
 ) -> Minimum:
     """Minimise an energy, with derivatives in all tensors that its terms and weights were made from.
 
@@ -164,8 +163,6 @@ def differentiable_minimum(
         Positive definite, of terms made from PyTorch tensors; weights may be tensors too.
     solver : CG
         For the map and for its derivative. The gradient's relative error is of the order of ``rtol``.
-    start : (k_t, k_s) tensor, optional
-        Start of the iteration; it does not change the minimiser.
 
     Returns
     -------
@@ -179,7 +176,7 @@ def differentiable_minimum(
     """
     with torch.no_grad():
         precondition = sylvester(energy)
-        solution = _check(solve(energy.apply, energy.rhs(), solver, start, precondition), "map")
+        solution = _check(solve(energy.apply, energy.rhs(), solver, None, precondition), "map")
 
     def inverse(gradient: torch.Tensor) -> torch.Tensor:
         with torch.no_grad():

@@ -27,6 +27,8 @@ PARTS = {
 """Names and meanings of what can be learned."""
 
 _RIDGE = 0.1  # added to the variance between corresponding points, in units of the mean variance on a shape
+_COMPONENTS = 3  # kernels of a mixture
+_HIDDEN, _OUTPUTS = 16, 8  # sizes of the network
 _GAMMA_RATIO = 6.0  # ratio of one γ of a mixture to the previous, at the start
 
 
@@ -78,10 +80,6 @@ class Model(torch.nn.Module):
     rank : int, or mapping of "signature", "landmark", "shot" to int
         Rows of the metric for each kind of descriptors; a number alone is for the signature and SHOT, and half as many
         for each landmark.
-    components : int
-        Kernels of a mixture.
-    hidden, outputs : int
-        Sizes of the network.
     seed : int
         For the network's start.
 
@@ -98,9 +96,6 @@ class Model(torch.nn.Module):
         parts: Sequence[str],
         *,
         rank: int | Mapping[str, int] = 8,
-        components: int = 3,
-        hidden: int = 16,
-        outputs: int = 8,
         seed: int = 0,
     ) -> None:
         super().__init__()
@@ -113,7 +108,7 @@ class Model(torch.nn.Module):
         self.columns = _blocks(config.descriptors, *counts.pop())
         gamma = float(np.log(np.median([pair.gamma for pair in pairs])))
         if isinstance(self.kernel, Gaussian | Laplacian):
-            middle = np.arange(components if "mixture" in parts else 1)
+            middle = np.arange(_COMPONENTS if "mixture" in parts else 1)
             middle = middle - len(middle) // 2
             self._add("log_gamma", gamma + np.log(_GAMMA_RATIO) * middle, {"gamma", "mixture"})
             # The middle kernel begins alone but for a hundredth, through which the others can grow.
@@ -129,9 +124,9 @@ class Model(torch.nn.Module):
                 self._add(f"metric_{kind}", _directions(pairs, self.columns, kind, _rank_of(rank, kind)), {"metric"})
         if "network" in parts:
             draw = np.random.default_rng(seed)
-            inner = np.hstack([draw.normal(size=(hidden, len(self.network_columns))) * 2.0, np.zeros((hidden, 1))])
+            inner = np.hstack([draw.normal(size=(_HIDDEN, len(self.network_columns))) * 2.0, np.zeros((_HIDDEN, 1))])
             self._add("layer_0", inner, {"network"})
-            self._add("layer_1", 0.01 * draw.normal(size=(outputs, hidden + 1)), {"network"})
+            self._add("layer_1", 0.01 * draw.normal(size=(_OUTPUTS, _HIDDEN + 1)), {"network"})
         if "metric" in parts and isinstance(self.kernel, Gaussian | Laplacian):
             # The metric has another scale than the descriptors.
             with torch.no_grad():

@@ -337,16 +337,16 @@ def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarra
     return share**2 * float(expit((numbers.landmark_error_middle - error) / numbers.landmark_error_width))
 
 
-def max_landmark_error(score: float, numbers: Scoring = SCORE) -> float:
+def max_landmark_error(score: float) -> float:
     """Return the error from which a landmark contradicts a map of this :attr:`Quality.score`, in √area."""
-    near_isometric = score >= numbers.non_isometric_score
-    return numbers.max_isometric_landmark_error if near_isometric else numbers.max_landmark_error
+    near_isometric = score >= SCORE.non_isometric_score
+    return SCORE.max_isometric_landmark_error if near_isometric else SCORE.max_landmark_error
 
 
-def rejected_landmarks(errors: np.ndarray, limit: float, numbers: Scoring = SCORE) -> np.ndarray:
+def rejected_landmarks(errors: np.ndarray, limit: float) -> np.ndarray:
     """Return which landmarks ``(l,)`` contradict a map that keeps to most of them; none of fewer than three."""
     wrong = errors > limit
-    few = len(errors) < 3 or (~wrong).mean() < numbers.min_kept_landmarks
+    few = len(errors) < 3 or (~wrong).mean() < SCORE.min_kept_landmarks
     return np.zeros(len(errors), dtype=bool) if few else wrong
 
 
@@ -396,9 +396,7 @@ def probability_word(chance: float, numbers: Calibration = SCORE.calibration) ->
     return "sure" if chance >= numbers.sure else "likely" if chance >= numbers.likely else "unlikely"
 
 
-def lower_by_torn_area(
-    chance: float | None, word: str, torn_area: float, numbers: Calibration = SCORE.calibration
-) -> tuple[float | None, str]:
+def lower_by_torn_area(chance: float | None, word: str, torn_area: float) -> tuple[float | None, str]:
     """Return the probability and the verdict of a finished map, lower by the share of its area that is torn.
 
     A quadruped of which 13 % keep distances nearby badly, ears and throat, was off by 9 and "sure"; right maps that are
@@ -407,7 +405,7 @@ def lower_by_torn_area(
     if chance is None:
         return chance, word
     chance *= 1.0 - torn_area
-    return chance, word if word == "ambiguous" else probability_word(chance, numbers)
+    return chance, word if word == "ambiguous" else probability_word(chance)
 
 
 def select_distinct(order: Iterable[T], differ: Callable[[T, T], bool], most: int | None = None) -> list[T]:

@@ -19,6 +19,7 @@ from kfmaps.viz.colors import position_colors
 from kfmaps.viz.figures import TEXT, NotebookFigure
 from kfmaps.viz.surfaces import draw_surface
 
+_PANEL = 1.9  # width of a panel, in inches
 _LABEL, _TITLE = 0.3, 0.45  # height of a line of labels and of the title, in inches
 
 
@@ -50,7 +51,6 @@ def grid_figure(
     columns: int | None = None,
     colors: np.ndarray | None = None,
     view: View | None = None,
-    panel: float = 1.9,
     title: str | None = None,
 ) -> Figure:
     """Draw the source first, its label in bold, then every target in the source's colours.
@@ -67,8 +67,6 @@ def grid_figure(
         sRGB in [0, 1] on the source; by default :func:`~kfmaps.viz.position_colors`.
     view : View, optional
         Of the source; by default :func:`~kfmaps.viz.automatic_view`. Targets are seen from the same side.
-    panel : float
-        Width of a panel in inches.
     title : str, optional
 
     Raises
@@ -89,23 +87,24 @@ def grid_figure(
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
     half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03
-    tall = 0.88 * panel * float(np.clip(half[1] / half[0], 0.4, 2.5)) + _LABEL
+    tall = 0.88 * _PANEL * float(np.clip(half[1] / half[0], 0.4, 2.5)) + _LABEL
     if columns is None:
-        rows = max(1, round(len(cells) / max(1.0, np.sqrt(1.5 * len(cells) * tall / panel))))
+        rows = max(1, round(len(cells) / max(1.0, np.sqrt(1.5 * len(cells) * tall / _PANEL))))
         columns = -(-len(cells) // rows)
     columns = min(check_count(columns, "columns"), len(cells))
     rows = -(-len(cells) // columns)
-    width, height = columns * panel, rows * tall + (_TITLE if title else 0)
+    width, height = columns * _PANEL, rows * tall + (_TITLE if title else 0)
     figure = NotebookFigure(figsize=(width, height), facecolor="white")
     for i, (text, mesh, painted, seen) in enumerate(cells):
-        left, bottom = i % columns * panel / width, (rows - 1 - i // columns) * tall / height
-        place = (left + 0.06 * panel / width, bottom + _LABEL / height, 0.88 * panel / width, (tall - _LABEL) / height)
+        left, bottom = i % columns * _PANEL / width, (rows - 1 - i // columns) * tall / height
+        low, high = bottom + _LABEL / height, (tall - _LABEL) / height
+        place = (left + 0.06 * _PANEL / width, low, 0.88 * _PANEL / width, high)
         ax = figure.add_axes(place)
         draw_surface(ax, mesh, painted, seen)
         middle, reach = np.mean([ax.get_xlim(), ax.get_ylim()], axis=1), half * _scale(mesh)
         ax.set_xlim(middle[0] - reach[0], middle[0] + reach[0])
         ax.set_ylim(middle[1] - reach[1], middle[1] + reach[1])
-        centre = left + 0.5 * panel / width
+        centre = left + 0.5 * _PANEL / width
         written = figure.text(centre, bottom + 0.08 / height, text, ha="center", va="bottom", fontsize=8)
         written.set_parse_math(False)  # a name is a name, not a formula
         written.set_color(TEXT if i else "black")

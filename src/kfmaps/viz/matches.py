@@ -109,12 +109,12 @@ def match_figure(
     return figure
 
 
-def values_figure(mesh: Mesh, values: Mapping[str, np.ndarray], view: View | None = None) -> Figure:
+def values_figure(mesh: Mesh, values: Mapping[str, np.ndarray]) -> Figure:
     """Draw a surface in the colours of ``values``, once for each title, with a bar in per cent.
 
-    ``values``: numbers of each vertex, not negative, by title; ``view``: by default :func:`automatic_view`.
+    ``values``: numbers of each vertex, not negative, by title.
     """
-    seen = automatic_view(mesh) if view is None else view
+    seen = automatic_view(mesh)
     width, height = _BAR_PANEL * len(values), 4.4
     figure = NotebookFigure(figsize=(width, height), facecolor="white")
     for i, (title, given) in enumerate(values.items()):
