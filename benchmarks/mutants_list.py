@@ -366,7 +366,7 @@ MUTANTS = tuple(
         ("return forth or back or DeformationEnergy(", "return DeformationEnergy(", "test_extremities -k apart"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
         # formulations
-        ("damped = stiffness / (1.0 + stiffness)", "damped = 1.0", "test_formulations -k transport"),
+        ("damped = _STIFFNESS / (1.0 + _STIFFNESS)", "damped = 1.0", "test_formulations -k transport"),
         ("(leaving[:, None] * self.functions_s)", "self.functions_s", "test_formulations -k majorizer"),
         (
             "cost = 0.5 * squares - functions_t @ images.T",
