@@ -368,6 +368,8 @@ MUTANTS = tuple(
         # formulations
         ("damped = _STIFFNESS / (1.0 + _STIFFNESS)", "damped = 1.0", "test_formulations -k transport"),
         ("(leaving[:, None] * self.functions_s)", "self.functions_s", "test_formulations -k majorizer"),
+        ("* self.functions_t * self.functions_t))", "* self.functions_t))", "test_formulations -k majorizer_of"),
+        ("self.penalty.value(self.U_t.T @ C", "self.penalty.value(self.U_t.T * C", "test_formulations -k rotated"),
         (
             "cost = 0.5 * squares - functions_t @ images.T",
             "cost = squares - functions_t @ images.T",

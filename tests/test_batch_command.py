@@ -20,14 +20,8 @@ SIZES = (
     *("--set", "descriptors.n_eigenfunctions=40", "--set", "nystrom.samples=60"),
 )
 ZOOM = (
-    "--preset",
-    "single-fit",
-    "--set",
-    "refinement.start=10",
-    "--set",
-    "refinement.stop=40",
-    "--set",
-    "refinement.step=5",
+    *("--preset", "single-fit", "--set", "refinement.start=10", "--set", "refinement.stop=40"),
+    *("--set", "refinement.step=5"),
 )
 MARKS = ("--landmarks", ",".join(map(str, LANDMARKS)))
 
@@ -89,22 +83,16 @@ def _error_of_a_single_match(
     return told["errors"]["mean"]
 
 
+def star(folder: Path, tmp_path: Path) -> list[str]:
+    """The words of a run of b0 with all others."""
+    graph = ("--graph", "star:b0", "--workers", "1")
+    return ["batch", str(folder), "-o", str(tmp_path / "out"), *graph, *SIZES, *ZOOM, *MARKS]
+
+
 def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = write_collection(tmp_path / "c", 3)
     touch(folder / "b2.off", "OFF\n")
-    words = [
-        "batch",
-        str(folder),
-        "-o",
-        str(tmp_path / "out"),
-        "--graph",
-        "star:b0",
-        "--workers",
-        "1",
-        *SIZES,
-        *ZOOM,
-        *MARKS,
-    ]
+    words = star(folder, tmp_path)
     assert main(words) == 1
     told = capsys.readouterr().out
     assert "failed: b0 → b2: shape b2 could not be prepared" in told
@@ -140,19 +128,7 @@ def test_refusals(
 
 
 def test_other_settings_are_refused(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = [
-        "batch",
-        str(folder),
-        "-o",
-        str(tmp_path / "out"),
-        "--graph",
-        "star:b0",
-        "--workers",
-        "1",
-        *SIZES,
-        *ZOOM,
-        *MARKS,
-    ]
+    words = star(folder, tmp_path)
     assert main([*words, "-q"]) == 0
     assert main([*words, "--set", "weights.laplacian=2"]) == 2
     assert "config.weights.laplacian 1.0, now 2.0" in capsys.readouterr().err

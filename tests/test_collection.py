@@ -17,7 +17,7 @@ from kfmaps.collection.pair_graph import (
     star_graph,
 )
 from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_map
-from kfmaps.collection.repair import repair_maps
+from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
 from kfmaps.fmap.constraints import nearest_orthogonal
@@ -248,6 +248,18 @@ def test_compositions_of_maps_that_agree_are_the_maps() -> None:
     np.testing.assert_array_equal(invert_map(a, basis, 30)[a], np.arange(30))
 
 
+def composed(maps: list[list[ScoredMap]], ways: list[tuple[int, CyclePath]], score: float) -> list[ScoredMap]:
+    """The products of the maps on each path, all of one score."""
+    made = []
+    for _, way in ways:
+        C = np.eye(20)
+        for step in way.steps:
+            one = maps[step.edge][step.candidate].map
+            C = (one if step.forward else one.T) @ C
+        made.append(ScoredMap(C, score, 0.9))
+    return made
+
+
 def test_a_wrong_pair_is_replaced_for_the_way_round_and_no_other() -> None:
     latent, pairs = rotations(6, size=20), complete_graph(6)
     bad = nearest_orthogonal(np.random.default_rng(5).normal(size=(20, 20)))
@@ -256,15 +268,7 @@ def test_a_wrong_pair_is_replaced_for_the_way_round_and_no_other() -> None:
 
     def compose(ways):
         asked.extend(ways)
-        made = []
-        for number, way in ways:
-            C = np.eye(20)
-            for step in way.steps:
-                one = maps[step.edge][step.candidate].map
-                C = (one if step.forward else one.T) @ C
-            made.append(ScoredMap(C, -4.0, 0.9))
-            assert pairs[number] == (1, 4)
-        return made
+        return composed(maps, ways, -4.0)
 
     found = repair_maps(6, pairs, maps, compose)
     assert {number for number, _ in asked} == {pairs.index((1, 4))}
@@ -326,18 +330,7 @@ def test_a_family_of_wrong_candidates_does_not_outvote_better_evidence() -> None
             maps.append([*several, ScoredMap(wrong, -9.8, 0.9)])
         else:
             maps.append([ScoredMap(right, -5.0, 0.9)])
-
-    def compose(ways):
-        made = []
-        for _, way in ways:
-            C = np.eye(20)
-            for step in way.steps:
-                one = maps[step.edge][step.candidate].map
-                C = (one if step.forward else one.T) @ C
-            made.append(ScoredMap(C, -8.8, 0.9))
-        return made
-
-    found = repair_maps(6, pairs, maps, compose)
+    found = repair_maps(6, pairs, maps, lambda ways: composed(maps, ways, -8.8))
     changed = {pairs[c.edge] for c in found.replacements if c.kind == "composition"}
     assert changed == {(2, 5), (3, 5), (4, 5)}
     for change in found.replacements:

@@ -11,7 +11,7 @@ import pytest
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
 from kfmaps.fmap.constraints import _tangent, minimize_orthogonal, nearest_orthogonal
-from kfmaps.fmap.coupled import couple_bases
+from kfmaps.fmap.coupled import RotatedPenalty, RotatedTerm, couple_bases
 from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, operator_term, value
 from kfmaps.fmap.losses import _LOSSES, Loss, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
@@ -322,6 +322,22 @@ def test_coupled_bases_undo_a_known_rotation():
     for U in (found.U_s, found.U_t):
         rotated = U.T @ np.diag(values) @ U
         assert np.linalg.norm(rotated - np.diag(np.diag(rotated))) < 0.05
+
+
+def test_terms_and_penalties_between_rotated_bases(numbers):
+    """They say of a map what the given ones say of the same map between the rotated bases."""
+    rng = np.random.default_rng(0)
+    C, X = rng.normal(size=(2, *numbers[-1].rhs().shape))
+    U_t, U_s = (nearest_orthogonal(rng.normal(size=(k, k))) for k in C.shape)
+    plain = numbers[-1].terms["laplacian"]
+    term = RotatedTerm(plain, U_t, U_s)
+    assert value(term, U_t @ C @ U_s.T) == pytest.approx(value(plain, C))
+    one = np.eye(C.size).reshape(-1, *C.shape)
+    np.testing.assert_allclose(term.diagonal().ravel(), [inner(e, term.apply(e)) for e in one], atol=1e-12)
+    penalty = sparse_penalty(C, 1e-2)
+    rotated = RotatedPenalty(penalty, U_t, U_s)
+    assert rotated.value(U_t @ C @ U_s.T) == pytest.approx(penalty.value(C))
+    assert value(rotated.majorizer(U_t @ C @ U_s.T), U_t @ X @ U_s.T) == pytest.approx(value(penalty.majorizer(C), X))
 
 
 def test_resolvent_mask():
