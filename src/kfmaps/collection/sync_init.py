@@ -65,10 +65,9 @@ def spectral_init(
     if blocks:
         rows, columns = (np.array(side) for side in zip(*blocks, strict=True))
         values = np.stack([root[a] * root[b] * C for (a, b), C in blocks.items()])
-        inner = np.arange(functions)
-        at_row = rows[:, None, None] * functions + inner[None, :, None] + 0 * inner[None, None, :]
-        at_column = columns[:, None, None] * functions + 0 * inner[None, :, None] + inner[None, None, :]
-        whole = csr_array((values.ravel(), (at_row.ravel(), at_column.ravel())), shape=(size, size))
+        firsts, inner = np.stack([rows, columns])[:, :, None, None] * functions, np.arange(functions)
+        at = np.broadcast_arrays(firsts[0] + inner[:, None], firsts[1] + inner)
+        whole = csr_array((values.ravel(), (at[0].ravel(), at[1].ravel())), shape=(size, size))
     if size <= _DENSE:
         vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
     else:
