@@ -20,7 +20,7 @@ from kfmaps._progress import CountProgress
 from kfmaps._threads import available_cores
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, Future
 
 _Item = TypeVar("_Item")
 _Value = TypeVar("_Value")
@@ -58,7 +58,7 @@ class WorkerPool:
         self.log = log or (lambda *_, **__: None)
         self.begun: dict[int, float] = {}
         self._stack, self._client = ExitStack(), None
-        self._labels: dict[Any, str] = {}
+        self._labels: dict[object, str] = {}
         self._deaths = 0
 
     def __enter__(self) -> WorkerPool:
@@ -122,7 +122,7 @@ class WorkerPool:
         finished = as_completed(with_results=True, raise_errors=False, loop=client.loop)
         before = [n_begun(item) if n_begun else 0 for item in items]
         waiting = deque(range(len(items)))
-        running: dict[Any, int] = {}
+        running: dict[Future, int] = {}
         try:
             while waiting or running:
                 while waiting and len(running) < self.n_threads:

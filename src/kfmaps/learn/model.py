@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 import torch
+from numpy.typing import ArrayLike
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import Array, refuse
 from kfmaps.config import Config, DescriptorConfig
 from kfmaps.kernels.kernels import Gaussian, KernelLike, Laplacian, Sum, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric, Network, Scaled, forward
@@ -47,7 +48,7 @@ class _Columns:
         """Return the number of descriptors."""
         return sum(len(block) for block in self.blocks)
 
-    def pieces(self, D: Any) -> list[tuple[str, Any]]:
+    def pieces(self, D: Array) -> list[tuple[str, Array]]:
         """Return the kind and the columns of each block of ``D (n, d)``."""
         return [(kind, D[:, block[0] : block[-1] + 1]) for kind, block in zip(self.kinds, self.blocks, strict=True)]
 
@@ -134,7 +135,7 @@ class Model(torch.nn.Module):
                 width = np.log(_automatic_gamma(self.kernel, transformed, config.bandwidth_scale))
                 self.get_parameter("log_gamma").add_(width - gamma)
 
-    def _add(self, name: str, values: Any, parts: set[str]) -> None:
+    def _add(self, name: str, values: ArrayLike, parts: set[str]) -> None:
         tensor = torch.tensor(np.asarray(values), dtype=torch.float64)
         self.register_parameter(name, torch.nn.Parameter(tensor, requires_grad=bool(parts & set(self.parts))))
 

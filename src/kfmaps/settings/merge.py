@@ -73,7 +73,7 @@ def read_settings(path: str | Path, base: Config | None = None) -> Config:
 
 
 def with_assignments(
-    base: Config, assignments: Sequence[str], options: Mapping[str, tuple[str, Any]] | None = None
+    base: Config, assignments: Sequence[str], options: Mapping[str, tuple[str, object]] | None = None
 ) -> Config:
     """Return ``base`` changed by texts like ``"weights.laplacian=0.5"``; of two for one setting the later counts.
 
@@ -122,14 +122,14 @@ def similar_settings(option: str) -> list[str]:
     return sorted((path for path in scores if scores[path] > max(0.9, best - 1.2)), key=lambda path: -scores[path])[:3]
 
 
-def _nested(assignments: Mapping[str, Any]) -> dict[str, Any]:
+def _nested(assignments: Mapping[str, object]) -> dict[str, object]:
     """``{"a.b": 1}`` as ``{"a": {"b": 1}}``."""
-    tree: dict[str, Any] = {}
+    tree: dict[str, object] = {}
     for path, value in assignments.items():
         *above, last = path.split(".")
-        branch: dict[str, Any] = tree
+        branch: dict[str, object] = tree
         for name in above:
-            below: Any = branch.get(name)
+            below = branch.get(name)
             if isinstance(below, str):  # a kind
                 below = {"kind": below}
             branch[name] = branch = below if isinstance(below, dict) else {}
@@ -137,7 +137,7 @@ def _nested(assignments: Mapping[str, Any]) -> dict[str, Any]:
     return tree
 
 
-def _literal(text: str) -> Any:
+def _literal(text: str) -> object:
     """A TOML value, or the text itself when it is none."""
     try:
         return tomllib.loads(f"value = {text}")["value"]

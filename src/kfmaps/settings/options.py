@@ -27,7 +27,7 @@ class Chosen:
 
     preset: str | None = None
     file: Path | None = None  # a settings file
-    options: Mapping[str, tuple[str, Any]] = field(default_factory=dict)  # path and value by option
+    options: Mapping[str, tuple[str, object]] = field(default_factory=dict)  # path and value by option
     assignments: tuple[str, ...] = ()  # what stood after ``--set``
 
     def config(self, base: Config) -> Config:
