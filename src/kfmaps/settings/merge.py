@@ -130,9 +130,8 @@ def _nested(assignments: Mapping[str, object]) -> dict[str, object]:
         branch: dict[str, object] = tree
         for name in above:
             below = branch.get(name)
-            if isinstance(below, str):  # a kind
-                below = {"kind": below}
-            branch[name] = branch = below if isinstance(below, dict) else {}
+            kind: dict[str, object] = {"kind": below} if isinstance(below, str) else {}
+            branch[name] = branch = below if isinstance(below, dict) else kind
         branch[last] = value
     return tree
 
