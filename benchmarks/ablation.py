@@ -1,10 +1,10 @@
 """What each piece of the search is worth: whole matches with a piece left out or replaced.
 
     python benchmarks/ablation.py --data DIR [--sets SMAL_r,catdog] [--half choice] [--pairs 3] [--seeds 0]
-        [--pieces kernel fits,repairs] [--rows FILE] [--cache DIR]
+        [--pieces no kernel fits,no repairs] [--rows FILE] [--cache DIR]
 
 Without ``--pieces`` all of :data:`PIECES` are tried. Pairs, halves and DIR are as for benchmarks/scatter.py. For each
-piece stand there, over all pairs and seeds, the mean error × 100 with the piece and without it, the mean change with
+piece stand there, over all pairs and seeds, the mean error × 100 without the change and with it, the mean change with
 its interval of 95 % (by drawing pairs), the largest rise and fall of a pair, the maps that are right (below 8), those
 called "sure", those called so wrongly, and CPU seconds. ``--rows`` keeps every match in a file of JSON lines; the same
 command goes on where it ended. A pair takes 4 to 20 CPU seconds a piece.
@@ -24,49 +24,19 @@ from unittest.mock import patch
 
 import numpy as np
 from automatic import RIGHT, Job
+from kernel_pieces import Patch, energy_in_zoomout, guided, kernel_guidance, remember
 from scatter import SETS, chosen_pairs, interval, judged
 
 import kfmaps
 from kfmaps.fmap import descriptor_guidance as guidance
-from kfmaps.kernels.kernels import Gaussian, resolve_kernel
-from kfmaps.kernels.nystrom import nystrom
 from kfmaps.matching import (
     candidates,
-    landmark_evidence,
     limb_exchange,
-    postprocess,
     ranking,
     registration_refine,
-    sample_pair,
     search,
 )
 from kfmaps.matching import match as matching
-
-Patch = tuple[Any, str, Any]
-"""A module, one of its names, and what stands there instead."""
-SAMPLES = 500
-"""Samples of each shape that the Nyström features of a guidance are made from."""
-
-
-def kernel_guidance(sharpness: float, dimensions: int) -> Any:
-    """A stand-in for ``descriptor_guidance``: principal components of Nyström features of a Gaussian of SHOT."""
-
-    def made(source: Any, target: Any) -> guidance.DescriptorGuidance | None:
-        if guidance.descriptor_guidance(source, target) is None:
-            return None
-        rng = np.random.default_rng(0)
-        some = [side[rng.choice(len(side), min(SAMPLES, len(side)), replace=False)] for side in (source, target)]
-        samples = np.vstack(some)
-        kernel = nystrom(resolve_kernel(Gaussian(), samples, sharpness), samples, 1e-6)
-        return guidance.descriptor_guidance(kernel.features(source), kernel.features(target), dimensions)
-
-    return made
-
-
-def _guided(made: Any) -> list[Patch]:
-    return [
-        (one, "descriptor_guidance", made) for one in (sample_pair, landmark_evidence, registration_refine, postprocess)
-    ]
 
 
 def _first(found: Any, *_: Any, **__: Any) -> Any:
@@ -74,25 +44,28 @@ def _first(found: Any, *_: Any, **__: Any) -> Any:
 
 
 PIECES: dict[str, list[Patch]] = {
-    "kernel fits": [(candidates, "kernel_inits", lambda *_, **__: [])],
-    "starts from extremities": [(candidates, "extremity_inits", lambda *_, **__: [])],
-    "near-symmetries": [(candidates, "symmetry_inits", lambda *_, **__: [])],
-    "perturbations": [(candidates, "N_PERTURBATIONS", 0)],
-    "fine refinement with extremities": [(candidates, "FINE_WEIGHTS", candidates.FINE_WEIGHTS[:1])],
-    "closer look at the first two": [(one, "rerank_close", _first) for one in (ranking, limb_exchange)],
-    "near duplicates": [(search, "rerank_near_duplicates", _first)],
-    "repairs of extremity matches": [(registration_refine, "PAIRED", 0)],
-    "repairs of all but the best": [
+    "no kernel fits": [(candidates, "kernel_inits", lambda *_, **__: [])],
+    "no starts from extremities": [(candidates, "extremity_inits", lambda *_, **__: [])],
+    "no near-symmetries": [(candidates, "symmetry_inits", lambda *_, **__: [])],
+    "no perturbations": [(candidates, "N_PERTURBATIONS", 0)],
+    "no fine refinement with extremities": [(candidates, "FINE_WEIGHTS", candidates.FINE_WEIGHTS[:1])],
+    "no closer look at the first two": [(one, "rerank_close", _first) for one in (ranking, limb_exchange)],
+    "no near duplicates": [(search, "rerank_near_duplicates", _first)],
+    "no repairs of extremity matches": [(registration_refine, "PAIRED", 0)],
+    "repairs of the best alone": [
         (registration_refine, name, n) for name, n in (("FIRST", 1), ("BENT", 1), ("PAIRED", 0))
     ],
-    "repairs": [(search, "refine_by_registration", lambda ranked, *_: (ranked, ()))],
-    "second finish where torn": [(matching, "_try_others", lambda _task, _found, best: best)],
-    "exchanged limbs": [(search, "compare_exchanged", lambda best, *_, **__: [best])],
-    "guidance by extremities": [(search, "extremity_vertices", lambda *_: None)],
-    "linear guidance of 32 for one of 96": _guided(lambda s, t: guidance.descriptor_guidance(s, t, 96)),
-    "linear guidance for a Gaussian one": _guided(kernel_guidance(2.0, 96)),
+    "no repairs": [(search, "refine_by_registration", lambda ranked, *_: (ranked, ()))],
+    "no second finish where torn": [(matching, "_try_others", lambda _task, _found, best: best)],
+    "no exchanged limbs": [(search, "compare_exchanged", lambda best, *_, **__: [best])],
+    "no guidance by extremities": [(search, "extremity_vertices", lambda *_: None)],
+    "guidance of 96 components": guided(lambda s, t: guidance.descriptor_guidance(s, t, 96)),
+    "Gaussian guidance": guided(kernel_guidance(2.0, 96)),
+    "Gaussian guidance of all descriptors": guided(kernel_guidance(1.0, 64, "product")),
+    "Gaussian guidance of each set": guided(kernel_guidance(1.0, 64, "sum")),
+    "energy in ZoomOut": energy_in_zoomout(1.0),
 }
-"""What is taken out, or out and something else in."""
+"""What is changed: a piece taken out, or another in its place."""
 
 
 @contextmanager
@@ -107,6 +80,7 @@ def without(piece: str) -> Iterator[None]:
 def row_of(job: Job, seed: int, piece: str, cache: Path | None) -> dict[str, Any]:
     """One match: its error, verdict and CPU seconds."""
     of, config = judged(job, cache), replace(kfmaps.Config(), threads=1)
+    remember(of.source, of.target)
     with without(piece):
         start = time.process_time()
         made = kfmaps.match(of.source, of.target, config, rng=seed)
@@ -124,21 +98,33 @@ def told(rows: list[dict[str, Any]]) -> str:
     return f"{sum(right):4} {sum(sure):4} {wrong:4} {np.mean([row['cpu'] for row in rows]):6.1f}"
 
 
+KEY = "set", "pair", "seed"
+
+
+def _of_whole(rows: list[dict[str, Any]]) -> dict[tuple[Any, ...], dict[str, Any]]:
+    return {tuple(row[k] for k in KEY): row for row in rows if row["piece"] == ""}
+
+
+def changes_of(rows: list[dict[str, Any]], piece: str) -> tuple[list[dict[str, Any]], np.ndarray, np.ndarray]:
+    """The rows without a piece, the errors with it (m,), and by how much these change (m,)."""
+    whole = _of_whole(rows)
+    out = [row for row in rows if row["piece"] == piece and tuple(row[k] for k in KEY) in whole]
+    before = np.array([whole[tuple(row[k] for k in KEY)]["error"] for row in out])
+    return out, before, np.array([row["error"] for row in out]) - before
+
+
 def report(rows: list[dict[str, Any]], pieces: list[str]) -> None:
     """Print the table of the rows, and for each piece the change of each set."""
-    key = ("set", "pair", "seed")
-    whole = {tuple(row[k] for k in key): row for row in rows if row["piece"] == ""}
-    print(f"{'without':36} maps  with  out     change (95 %)     fall   rise right sure wrong  CPU s")
+    whole = _of_whole(rows)
+    print(f"{'':36} maps  none  with    change (95 %)     fall   rise right sure wrong  CPU s")
     print(
         f"{'(nothing)':36} {len(whole):4} {np.mean([r['error'] for r in whole.values()]):5.2f}{'':44}"
         f"{told([*whole.values()])}"
     )
     for piece in pieces:
-        out = [row for row in rows if row["piece"] == piece and tuple(row[k] for k in key) in whole]
+        out, before, change = changes_of(rows, piece)
         if not out:
             continue
-        before = np.array([whole[tuple(row[k] for k in key)]["error"] for row in out])
-        change = np.array([row["error"] for row in out]) - before
         low, high = interval(100 * change / before.mean())
         print(
             f"{piece:36} {len(out):4} {before.mean():5.2f} {(before + change).mean():5.2f}"
