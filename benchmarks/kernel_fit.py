@@ -19,9 +19,10 @@ from typing import Any
 import numpy as np
 from ablation import report
 from automatic import Job, chosen_landmarks, loaded
-from scatter import chosen_pairs, judged
+from scatter import POINTS, chosen_pairs
 
 import kfmaps
+from kfmaps.geometry.geodesics import geodesic_distances
 
 LANDMARKS = 6
 COUNTS = 10, 100
@@ -30,21 +31,23 @@ KERNELS = {"": kfmaps.Linear(), "Gaussian": kfmaps.Gaussian()}
 
 def rows_of(job: Job) -> list[dict[str, Any]]:
     """Both errors of each fit of a pair."""
-    of, rows = judged(job, None), []
-    _, _, *true = loaded(job)
-    marks = chosen_landmarks(of.source, (true[0], true[1]), LANDMARKS, 0.0)
-    plain = replace(kfmaps.Config.single_fit(), threads=1, registration=None)
+    *meshes, true_s, true_t = loaded(job)
+    plain, rows = replace(kfmaps.Config.single_fit(), threads=1, registration=None), []
+    source, target = (kfmaps.prepare(mesh, plain) for mesh in meshes)
+    marks = chosen_landmarks(source, (true_s, true_t), LANDMARKS, 0.0)
+    some = np.random.default_rng(0).permutation(len(true_t))[:POINTS]
+    away = geodesic_distances(source.mesh, true_s[some])
     for count in COUNTS:
         for name, kernel in KERNELS.items():
             config = replace(plain, kernel=kernel, descriptors=replace(plain.descriptors, n_spectral=count))
             start = time.process_time()
-            made = kfmaps.match(of.source, of.target, config, landmarks=marks)
+            made = kfmaps.match(source, target, config, landmarks=marks)
             spent = time.process_time() - start
             assert made.fit is not None
             for stage, points in (("raw", made.fit.raw_target_to_source), ("refined", made.target_to_source)):
                 row = {"set": job.kind, "pair": f"{job.source}-{job.target}, {count}, {stage}", "seed": 0}
                 piece = name and f"{name}, {count} descriptors, {stage}"
-                error = of.error(np.asarray(points)[of.true_t])
+                error = 100 * float(away[np.arange(len(some)), np.asarray(points)[true_t[some]]].mean())
                 rows.append({**row, "piece": piece, "error": error, "verdict": made.verdict, "cpu": spent})
     return rows
 
