@@ -63,7 +63,7 @@ PIECES: dict[str, list[Patch]] = {
     "Gaussian guidance": guided(kernel_guidance(2.0, 96)),
     "Gaussian guidance of all descriptors": guided(kernel_guidance(1.0, 64, "product")),
     "Gaussian guidance of each set": guided(kernel_guidance(1.0, 64, "sum")),
-    "energy in ZoomOut": energy_in_zoomout(1.0),
+    "energy in ZoomOut": energy_in_zoomout(3.0),
 }
 """What is changed: a piece taken out, or another in its place."""
 

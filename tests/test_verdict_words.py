@@ -1,6 +1,7 @@
 """Verdicts and probabilities as people read them."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from kfmaps.cli.summary import table
 from kfmaps.cli.words import VERDICTS, probability_text, verdict_text
 from kfmaps.datasets import sphere
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import MatchRegistration, MatchScore
+from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchRegistration, MatchScore
 from kfmaps.registration.accept import RegistrationReport
 from kfmaps.viz.page import verdict_record
 
@@ -35,22 +36,35 @@ def test_probabilities_are_whole_per_cents_but_at_the_ends() -> None:
     assert texts == ["<1 %", "<1 %", "1 %", "50 %", "97 %", "99 %", ">99 %", ">99 %"]
 
 
-def test_the_summary_says_which_landmarks_had_no_say() -> None:
-    mesh, report = sphere(1500), RegistrationReport(0.01, 0.1, 0.9, landmarks_held=False)
-    landmarks, score = np.array([[1, 2], [3, 4]]), MatchScore(rejected_landmarks=np.array([1]))
+def _summary(match: Match) -> dict[str, str]:
+    names, values = (list(column.cells) for column in table(match).columns)
+    return {str(name): str(value) for name, value in zip(names, values, strict=True)}
+
+
+def _match(**fields: Any) -> Match:
+    mesh = sphere(1500)
     points = np.arange(len(mesh.vertices))
-    match = Match(points, source=mesh, target=mesh, landmarks=landmarks, score=score, verdict="sure")
-    match = replace(match, local_confidence=np.ones(len(points)))
+    return Match(points, source=mesh, target=mesh, local_confidence=np.ones(len(points)), verdict="sure", **fields)
 
-    def told(found: Match) -> str:
-        names, values = (list(column.cells) for column in table(found).columns)
-        return str(values[names.index("landmarks")])
 
-    left_out = "2; left out, since the map contradicts them: number 1, counted from 0"
-    assert (
-        told(match)
-        == told(replace(match, registration=MatchRegistration(None, RegistrationReport(0, 0, 1))))
-        == left_out
+def test_the_summary_says_which_landmarks_had_no_say() -> None:
+    landmarks, score = np.array([[1, 2], [3, 4]]), MatchScore(rejected_landmarks=np.array([1]))
+    match = _match(landmarks=landmarks, score=score)
+    held, loose = (
+        replace(match, registration=MatchRegistration(None, RegistrationReport(0.01, 0.1, 0.9, landmarks_held=hold)))
+        for hold in (True, False)
     )
-    loose = "; most are 4 % of √area or more from the map, so they do not hold it"
-    assert told(replace(match, registration=MatchRegistration(None, report))) == left_out + loose
+    left_out = "2; left out, since the map contradicts them: number 1, counted from 0"
+    assert _summary(match)["landmarks"] == _summary(held)["landmarks"] == left_out
+    says = "; most are 4 % of √area or more from the map, so they do not hold it"
+    assert _summary(loose)["landmarks"] == left_out + says
+
+
+def test_the_summary_says_what_part_the_kernel_had() -> None:
+    fitted = MatchFit(size=20, status="converged", steps=7, kernel="Gaussian(gamma=0.123456789)", rank=30)
+    searched, once = _match(confidence=0.95), _match(score=MatchScore(initialization=ONE_FIT))
+    assert _summary(searched)["kernel"] == "had no part in this map"
+    assert _summary(replace(searched, fit=fitted))["kernel"] == "Gaussian(gamma=0.1235), in the initial map"
+    told = _summary(replace(once, fit=fitted))
+    assert told["fit"] == "Gaussian(gamma=0.1235), 30 features; converged in 7 steps"
+    assert "kernel" not in told

@@ -65,10 +65,12 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         group, least = match.config.formulation.loss_group, np.argsort(fit.weights)[:3]
         text = ", ".join(f"{group} {number} {fit.weights[number]:.2f}" for number in least)
         rows.append(("least weight", f"{text} (counted from 0; 1 is full weight)"))
+    kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", fit.kernel)
     if match.score.initialization == ONE_FIT and fit.status is not None:
-        kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", fit.kernel)
         steps = f" in {fit.steps} steps" if fit.steps else ""
         rows.append(("fit", f"{kernel}, {fit.rank} features; {fit.status}{steps}"))
+    elif match.confidence is not None:
+        rows.append(("kernel", f"{kernel}, in the initial map" if kernel else "had no part in this map"))
     spent = sorted(match.seconds.items(), key=lambda item: -item[1])
     longest = ", ".join(f"{name} {seconds:.1f}" for name, seconds in spent[:3])
     rows.append(("time", f"{sum(match.seconds.values()):.1f} s, most of it for: {longest}"))
