@@ -4,9 +4,9 @@
         [--pieces no kernel fits,no repairs] [--rows FILE] [--cache DIR]
 
 Without ``--pieces`` all of :data:`PIECES` are tried. Pairs, halves and DIR are as for benchmarks/scatter.py. For each
-piece stand there, over all pairs and seeds, the mean error × 100 without the change and with it, the mean change with
-its interval of 95 % (by drawing pairs), the largest rise and fall of a pair, the maps that are right (below 8), those
-called "sure", those called so wrongly, and CPU seconds. ``--rows`` keeps every match in a file of JSON lines; the same
+piece stand there, over all pairs, the mean error × 100 without the change and with it, the mean change with its
+interval of 95 % (by drawing pairs), the largest rise and fall of a pair, and of all maps those that are right (below
+8), called "sure" and called so wrongly, and CPU seconds. ``--rows`` keeps every match in a file of JSON lines; the same
 command goes on where it ended. A pair takes 4 to 20 CPU seconds a piece.
 """
 
@@ -105,12 +105,20 @@ def _of_whole(rows: list[dict[str, Any]]) -> dict[tuple[Any, ...], dict[str, Any
     return {tuple(row[k] for k in KEY): row for row in rows if row["piece"] == ""}
 
 
-def changes_of(rows: list[dict[str, Any]], piece: str) -> tuple[list[dict[str, Any]], np.ndarray, np.ndarray]:
-    """The rows without a piece, the errors with it (m,), and by how much these change (m,)."""
+def changes_of(
+    rows: list[dict[str, Any]], piece: str
+) -> tuple[list[dict[str, Any]], np.ndarray, np.ndarray, np.ndarray]:
+    """The rows of a change, and for each of their pairs (p,) its set, its error without the change and by how much the
+    change alters it: means over the seeds.
+    """
     whole = _of_whole(rows)
     out = [row for row in rows if row["piece"] == piece and tuple(row[k] for k in KEY) in whole]
-    before = np.array([whole[tuple(row[k] for k in KEY)]["error"] for row in out])
-    return out, before, np.array([row["error"] for row in out]) - before
+    pairs: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for row in out:
+        errors = whole[tuple(row[k] for k in KEY)]["error"], row["error"]
+        pairs.setdefault((row["set"], row["pair"]), []).append(errors)
+    before, after = np.array([np.mean(errors, axis=0) for errors in pairs.values()]).reshape(-1, 2).T
+    return out, np.array([kind for kind, _ in pairs]), before, after - before
 
 
 def report(rows: list[dict[str, Any]], pieces: list[str]) -> None:
@@ -122,7 +130,7 @@ def report(rows: list[dict[str, Any]], pieces: list[str]) -> None:
         f"{told([*whole.values()])}"
     )
     for piece in pieces:
-        out, before, change = changes_of(rows, piece)
+        out, kinds, before, change = changes_of(rows, piece)
         if not out:
             continue
         low, high = interval(100 * change / before.mean())
@@ -131,8 +139,8 @@ def report(rows: list[dict[str, Any]], pieces: list[str]) -> None:
             f" {100 * change.mean() / before.mean():+6.1f} % ({low:+6.1f} to {high:+6.1f})"
             f" {change.min():+6.2f} {change.max():+6.2f} {told(out)}"
         )
-        for kind in dict.fromkeys(row["set"] for row in out):
-            at = np.array([row["set"] == kind for row in out])
+        for kind in dict.fromkeys(kinds):
+            at = kinds == kind
             print(f"    {kind:32} {at.sum():4} {before[at].mean():5.2f} {(before + change)[at].mean():5.2f}")
 
 

@@ -34,15 +34,14 @@ def main() -> None:
         label, _, asked = place.partition("=")
         file, _, piece = asked.rpartition(":")
         rows = [json.loads(line) for line in Path(file).read_text(encoding="utf-8").splitlines()]
-        out, before, change = changes_of(rows, piece.removeprefix("-"))
+        _, kinds, before, change = changes_of(rows, piece.removeprefix("-"))
         if piece.startswith("-"):
             before, change = before + change, -change
-        kinds = np.array([row["set"] for row in out])
         each = [100 * change[kinds == kind].mean() / before[kinds == kind].mean() for kind in np.unique(kinds)]
         axes.plot(each, np.full(len(each), i), "o", markerfacecolor="none", markeredgecolor="0.6", markersize=5)
         axes.plot(interval(100 * change / before.mean()), (i, i), color="#1f4e79", linewidth=2)
         axes.plot(100 * change.mean() / before.mean(), i, "o", color="#1f4e79", markersize=7)
-        labels.append(f"{label} ({len(np.unique([row['pair'] for row in out]))} pairs)")
+        labels.append(f"{label} ({len(kinds)} pairs)")
     axes.set_yticks(range(len(labels)), labels)
     axes.invert_yaxis()
     axes.set_xlabel("change of the mean error by the kernel, %")
