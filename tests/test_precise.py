@@ -16,7 +16,7 @@ from kfmaps.fmap.precise import (
     point_positions,
     vertex_point_map,
 )
-from kfmaps.geometry.clean import clean_mesh, outer_faces
+from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.closest_points import barycentric_matrix, closest_weights
 from kfmaps.geometry.mesh import Mesh
 
@@ -115,8 +115,8 @@ def test_faces_inside_are_found_outside() -> None:
     mesh = Mesh(np.vstack([speck, soup]), np.vstack([[[0, 1, 2], [3, 3, 4]], faces + 3]))
     part = clean_mesh(mesh, specks=True)
     assert len(part.mesh.vertices) < len(mesh.vertices) / 3
-    outer = outer_faces(mesh, part)
-    np.testing.assert_array_equal(mesh.vertices[mesh.faces[outer]], part.mesh.vertices[part.mesh.faces])
+    outer = mesh.faces[part.faces_to_original]
+    np.testing.assert_array_equal(mesh.vertices[outer], part.mesh.vertices[part.mesh.faces])
 
 
 def test_a_match_of_cut_meshes_has_places_outside() -> None:

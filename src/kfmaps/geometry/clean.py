@@ -26,6 +26,7 @@ class CleanedMesh:
     to_original: np.ndarray  # (m,): Original number of each vertex, ascending. Of welded vertices the first is kept.
     to_clean: np.ndarray  # (n,): the vertex that each original one counts as
     unreferenced: np.ndarray  # (n,): original vertices of no face: they count as the vertex nearest in space
+    faces_to_original: np.ndarray  # (g,): original number of each face, ascending
     n_welded: int = 0  # how many original vertices count as one with an earlier one
     specks: int = 0  # components left out
 
@@ -78,43 +79,29 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
     numbers = np.arange(n)
     joined = int((first != numbers).sum())
     if len(mesh.faces) == 0:
-        kept, gone, faces = np.unique(first), 0, mesh.faces
+        kept, gone, faces, left = np.unique(first), 0, mesh.faces, numbers[:0]
         used = np.ones(n, dtype=bool)
     else:
         faces = first[mesh.faces]
-        faces = faces[proper_faces(faces)]
+        left = np.flatnonzero(proper_faces(faces))
         gone = 0
         if specks:
-            keep, gone = _no_speck(Mesh(mesh.vertices, faces))
-            faces = faces[keep]
+            keep, gone = _no_speck(Mesh(mesh.vertices, faces[left]))
+            left = left[keep]
+        faces = faces[left]
         used = np.bincount(faces.ravel(), minlength=n) > 0
         kept = np.flatnonzero(used)
         used = used[first]
     if len(kept) == n:
         same = mesh if len(faces) == len(mesh.faces) else Mesh(mesh.vertices, faces)
-        return CleanedMesh(same, numbers, numbers, np.zeros(n, dtype=bool))
+        return CleanedMesh(same, numbers, numbers, np.zeros(n, dtype=bool), left)
     number = np.full(n, -1)
     number[kept] = np.arange(len(kept))
     faces = number[faces]
     number = number[first]
     if not used.all() and len(kept):
         number[~used] = KDTree(mesh.vertices[kept]).query(mesh.vertices[~used])[1]
-    return CleanedMesh(Mesh(mesh.vertices[kept], faces), kept, number, ~used, joined, gone)
-
-
-def outer_faces(mesh: Mesh, part: CleanedMesh) -> np.ndarray:
-    """Return the face of a mesh that each face of its cleaned mesh is, (g,) int64.
-
-    ``part``: of ``mesh``.
-    """
-    if part.mesh.faces is mesh.faces:
-        return np.arange(len(mesh.faces))
-    within = part.to_clean[mesh.faces]
-    within[part.unreferenced[mesh.faces].any(axis=1)] = -1
-    # Equal rows get equal numbers; of faces that are there twice any will do.
-    label = np.unique(np.concatenate([within, part.mesh.faces]), axis=0, return_inverse=True)[1].reshape(-1)
-    order = np.argsort(label[: len(within)], kind="stable")
-    return order[np.searchsorted(label[: len(within)], label[len(within) :], sorter=order)]
+    return CleanedMesh(Mesh(mesh.vertices[kept], faces), kept, number, ~used, left, joined, gone)
 
 
 def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse, to_numpy
 from kfmaps.fmap.precise import PointMap
-from kfmaps.geometry.clean import CleanedMesh, outer_faces
+from kfmaps.geometry.clean import CleanedMesh
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.shape import Shape, clean_shape
 
@@ -72,7 +72,7 @@ class VertexReindexing:
 
     def place(self, places: PointMap) -> PointMap:
         """Points in triangles inside as such outside."""
-        faces = outer_faces(self.outside[0].mesh, self.part_s)[places.faces]
+        faces = self.part_s.faces_to_original[places.faces]
         return PointMap(faces[self.part_t.to_clean], places.weights[self.part_t.to_clean])
 
     def bent(self, vertices: np.ndarray) -> np.ndarray:
