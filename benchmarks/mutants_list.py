@@ -768,8 +768,8 @@ MUTANTS = tuple(
         ),
         ("return turns @ _clip_eigenvalues(", "return _clip_eigenvalues(", "test_local_scaling -k exactly"),
         (
-            "diffuse = energy.factorize(area * energy.laplacian +",
-            "diffuse = energy.factorize(",
+            "diffuse = energy.factorize(area, areas)",
+            "diffuse = energy.factorize(0.0, areas)",
             "test_local_scaling -k nearly",
         ),
         (

@@ -186,9 +186,10 @@ def test_empty_rows_are_refused() -> None:
         smallest_eigenpairs(csr_array(block_diag([stiffness, np.zeros((1, 1))])), np.append(mass, 0), 5)
 
 
-def test_matrices_of_one_pattern_are_factorised_in_one_order(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The second factor has as few entries as the first, and its own values."""
-    stiffness, _, _ = square_grid(30)
+def test_shifted_matrices_are_factorised_in_one_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second factor has as few entries as the first, and its own values; one row has nothing on the diagonal."""
+    grid, _, _ = square_grid(30)
+    stiffness = csr_array(block_diag([grid, csr_array((1, 1))]))
     fill: list[int] = []
 
     def counted(*args: object, **options: object) -> object:
@@ -197,10 +198,11 @@ def test_matrices_of_one_pattern_are_factorised_in_one_order(monkeypatch: pytest
         return factor
 
     monkeypatch.setattr(_factor, "splu", counted)
-    factorize, rng = _factor.PatternFactorizer(), np.random.default_rng(0)
+    factorize, rng = _factor.ShiftedFactorizer(stiffness), np.random.default_rng(0)
     for scale in (1.0, 3.0):
-        matrix, wanted = scale * stiffness + diags_array(rng.uniform(1, 2, 900)), rng.normal(size=(900, 5))
-        np.testing.assert_allclose(factorize(matrix)(matrix @ wanted), wanted, atol=1e-10)
+        diagonal, wanted = rng.uniform(1, 2, 901), rng.normal(size=(901, 5))
+        right = scale * (stiffness @ wanted) + diagonal[:, None] * wanted
+        np.testing.assert_allclose(factorize(scale, diagonal)(right), wanted, atol=1e-10)
     assert fill[0] == fill[1] < 15 * 900
 
 

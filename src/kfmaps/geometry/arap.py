@@ -9,13 +9,14 @@ that is bent alike has the same energy.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
-from kfmaps.geometry.eigen.factorization import PatternFactorizer
+from kfmaps.geometry.eigen.factorization import ShiftedFactorizer
 from kfmaps.geometry.mesh import Mesh
 
 
@@ -28,7 +29,16 @@ class ArapEnergy:
     # x_j)``.
     moments: Any
     rest: np.ndarray  # (n, 3)
-    factorize: PatternFactorizer = field(default_factory=PatternFactorizer)  # of the Laplacian plus a diagonal
+
+    @cached_property
+    def factorize(self) -> ShiftedFactorizer:
+        """Factorises multiples of the Laplacian plus diagonals."""
+        return ShiftedFactorizer(self.laplacian)
+
+    @cached_property
+    def adjoint_moments(self) -> Any:
+        """The transposed moments, (n, 3 n)."""
+        return self.moments.T
 
 
 def build_arap(mesh: Mesh) -> ArapEnergy:
@@ -81,7 +91,7 @@ def spread_matrices(energy: ArapEnergy, areas: np.ndarray, area: float) -> Calla
     It is one implicit step of heat flow, with ``areas (n,)`` of the vertices.
     """
     n = len(areas)
-    diffuse = energy.factorize(area * energy.laplacian + diags_array(areas))
+    diffuse = energy.factorize(area, areas)
     return lambda matrices: np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
 
 
@@ -149,7 +159,7 @@ def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
     ``turns (n, 3, 3)``.
     """
     n = len(turns)
-    return 0.5 * (energy.moments.T @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
+    return 0.5 * (energy.adjoint_moments @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
 
 
 def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = None) -> float:

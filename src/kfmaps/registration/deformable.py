@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.arap import ArapEnergy, arap_rhs, build_arap, nearest_rotations, rotations
@@ -111,7 +111,7 @@ class DeformableMesh:
         kept, key = self.solvers, (stiffness, data)
         if kept is not None and key in kept:
             return kept[key]
-        solve = self.energy.factorize(stiffness * self.energy.laplacian + diags_array(data * self.areas))
+        solve = self.energy.factorize(stiffness, data * self.areas)
         if kept is not None:
             kept[key] = solve
         return solve
@@ -143,7 +143,7 @@ def initial_deformation(
     # The places of a vertex pull as one with their sum of weights does at their mean.
     own, mean = share.copy(), gathered[:, :3] / np.where(share > 0, share, 1.0)[:, None]
     _take_along(body.mesh, share, gathered)
-    smooth = energy.factorize(1e-4 * energy.laplacian + diags_array(share))(gathered)
+    smooth = energy.factorize(1e-4, share)(gathered)
     x, wanted = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
     solve = body.solver(_INITIAL_STIFFNESS, 1.0)
     for round in range(3):
@@ -151,7 +151,7 @@ def initial_deformation(
         trust = np.clip(agreement, 0.0, 1.0)
         held = body.areas * (trust + 1e-3)
         turns = rotations(energy, x).reshape(n, 9)
-        diffusion = energy.factorize(2.5e-3 * 0.5**round * energy.laplacian + diags_array(held))
+        diffusion = energy.factorize(2.5e-3 * 0.5**round, held)
         turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
         terms = [DataTerm(trust * own, mean)]
         x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, turns, 8)

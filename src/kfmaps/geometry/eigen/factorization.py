@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array
+from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import splu
 
 from kfmaps._arrays import MissingDependency, NotConverged, refuse
@@ -61,24 +61,43 @@ def factorize(matrix: SparseMatrix, ordered: bool, each: Map = map) -> Solve:
     return _solver(_factor(matrix, ordered), matrix.dtype, each)
 
 
-class PatternFactorizer:
-    """Factorise symmetric matrices of one pattern: the order of the rows that SuperLU finds for the first serves all.
+class ShiftedFactorizer:
+    """Factorise multiples of one matrix plus diagonals: the order of rows that SuperLU finds for the first serves all.
 
-    To find it takes more than half of the time of a factorisation. Called with a matrix ``(n, n)`` it returns what
-    :func:`factorize` returns.
+    To find it takes more than half of the time of a factorisation.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Symmetric, positive semi-definite.
     """
 
-    def __init__(self) -> None:
-        self._order: np.ndarray | None = None
+    def __init__(self, matrix: SparseMatrix) -> None:
+        self.matrix = matrix
+        self._ordered: tuple[np.ndarray, csc_array, np.ndarray] | None = None
 
-    def __call__(self, matrix: SparseMatrix) -> Solve:
-        if self._order is None:
-            factor = _factor(matrix, ordered=False)
-            self._order = np.argsort(factor.perm_c)
-            return _solver(factor, matrix.dtype, map)
-        order, back = self._order, np.argsort(self._order)
-        solve = factorize(csc_array(matrix)[order][:, order], ordered=True)
+    def __call__(self, scale: float, diagonal: np.ndarray) -> Solve:
+        """Return what :func:`factorize` returns for ``scale · matrix + diag(diagonal)``, ``diagonal (n,)``."""
+        if self._ordered is None:
+            first = scale * self.matrix + diags_array(diagonal)
+            factor = _factor(first, ordered=False)
+            self._ordered = self._with_diagonal(np.argsort(factor.perm_c))
+            return _solver(factor, first.dtype, map)
+        order, base, places = self._ordered
+        data = scale * base.data
+        data[places] += diagonal[order]
+        solve = factorize(csc_array((data, base.indices, base.indptr), shape=base.shape), ordered=True)
+        back = np.argsort(order)
         return lambda block: solve(block[order])[back]
+
+    def _with_diagonal(self, order: np.ndarray) -> tuple[np.ndarray, csc_array, np.ndarray]:
+        """Return ``order``, the matrix in it with all of its diagonal, and where that is among the entries."""
+        base = csc_array(csc_array(self.matrix + diags_array(np.ones(len(order))))[order][:, order])
+        base.sort_indices()
+        columns = np.repeat(np.arange(len(order)), np.diff(base.indptr))
+        places = np.flatnonzero(base.indices == columns)
+        base.data[places] = self.matrix.diagonal()[order]
+        return order, base, places
 
 
 def _factor(matrix: SparseMatrix, ordered: bool) -> Any:
