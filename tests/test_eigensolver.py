@@ -60,6 +60,11 @@ def test_grid_eigenvalues_are_the_closed_form(method: str, k: int) -> None:
     np.testing.assert_allclose(pairs.values, exact[:k], rtol=1e-9, atol=1e-12)
 
 
+def test_many_pairs_of_few_rows_are_found_where_no_krylov_basis_fits() -> None:
+    stiffness, mass, exact = square_grid(22)
+    np.testing.assert_allclose(smallest_eigenpairs(stiffness, mass, 200).values, exact[:200], rtol=1e-9, atol=1e-12)
+
+
 @pytest.mark.parametrize("method", ["block", "dense"])
 def test_pairs_solve_the_pencil(shape: tuple[csr_array, np.ndarray], method: str) -> None:
     stiffness, mass = shape

@@ -43,6 +43,8 @@ def test_position_orientation_and_size_do_not_count(shapes: np.ndarray) -> None:
     mean = found.aligned.mean(axis=0)
     np.testing.assert_allclose(found.consensus, mean / np.linalg.norm(mean), atol=1e-9)
     np.testing.assert_allclose(found.distances, np.linalg.norm(found.aligned - found.consensus, axis=(1, 2)))
+    for one in found.aligned:
+        np.testing.assert_allclose(similarity(one, found.consensus)[0], np.eye(3), atol=1e-9)
 
 
 def test_a_similarity_reflects_only_where_it_may(shapes: np.ndarray) -> None:
