@@ -84,8 +84,7 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
 
 def _doubtful_area(match: Match) -> float:
     """Return the share of the target's area that fits badly, of a map of whole shapes that is called right; else 0."""
-    known = match.target is not None and match.local_confidence is not None and len(match.target.faces) > 0
-    if not known or match.verdict not in ("sure", "likely") or match.partial.which != "none":
+    if len(match.target.faces) == 0 or match.verdict not in ("sure", "likely") or match.partial.which != "none":
         return 0.0
     return low_confidence_area(match.target, match.local_confidence)
 

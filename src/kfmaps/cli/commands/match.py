@@ -73,7 +73,7 @@ def match(
     check_required(require)
     reads = (source, target, *(landmarks or ()), *(descriptors or ()), *(truth or ()))
     for path in reads:
-        if path is not None and not path.exists():
+        if not path.exists():
             raise refuse(str(path), "a file", "nothing there", "check the path")
     check_output(output, force, reads)
     if quiet:
