@@ -11,7 +11,7 @@ import kfmaps
 from conftest import blob, fibonacci_sphere
 from kfmaps import InvalidInput
 from kfmaps.datasets import symmetric_creature, torus
-from kfmaps.geometry.cloud_surface import crust_faces, surface_of_cloud
+from kfmaps.geometry.cloud_surface import _fit_quadrics, crust_faces, surface_of_cloud
 from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
 
 GUARDS = ("kfmaps.geometry.cloud_surface", "kfmaps.shape")
@@ -37,17 +37,38 @@ def test_the_faces_of_a_closed_surface_are_found(mesh: Mesh, euler: int) -> None
     assert ((vertex_normals(found) * vertex_normals(mesh)).sum(axis=1) > 0.9).all()
 
 
-def test_noise_is_smoothed_and_too_much_of_it_leaves_a_cloud() -> None:
+def test_noisy_points_are_projected_and_too_much_noise_leaves_a_cloud() -> None:
     mesh = fibonacci_sphere(2000)
     spacing = np.sqrt(4 * np.pi / 2000)
     clean = surface_of_cloud(mesh.vertices)
     assert clean is not None
     np.testing.assert_array_equal(clean.vertices, mesh.vertices)
-    found = surface_of_cloud(noisy(mesh, 0.2 * spacing))
-    assert found is not None
-    off = [np.abs(np.linalg.norm(x, axis=1) - 1).mean() for x in (noisy(mesh, 0.2 * spacing), found.vertices)]
-    assert off[1] < 0.5 * off[0]
-    assert surface_of_cloud(noisy(mesh, 0.6 * spacing)) is None
+    for noise, left in (0.2, 0.5), (0.6, 0.35):
+        points = noisy(mesh, noise * spacing)
+        found = surface_of_cloud(points)
+        assert found is not None
+        off = [np.abs(np.linalg.norm(x, axis=1) - 1).mean() for x in (points, found.vertices)]
+        assert off[1] < left * off[0]
+        assert surface_area(found) == pytest.approx(4 * np.pi, rel=0.02)
+    assert surface_of_cloud(noisy(mesh, 6 * spacing)) is None
+
+
+@pytest.mark.parametrize("curved", [0.0, 0.5])
+def test_points_of_a_quadric_stay_where_they_are(curved: float) -> None:
+    """Points go along the normal, to planes and paraboloids; the noise is that of the points over their extent."""
+    rng = np.random.default_rng(0)
+    flat = rng.uniform(-1, 1, size=(3000, 2))
+    points = np.column_stack([flat, curved * flat[:, 0] * flat[:, 1]])
+    inner = np.abs(flat).max(axis=1) < 0.7
+    projected, noise = _fit_quadrics(points, 40)
+    np.testing.assert_allclose(projected[inner], points[inner], atol=2e-5)
+    assert noise < 1e-3
+    moved = points + 0.01 * rng.normal(size=points.shape)
+    projected, noise = _fit_quadrics(moved, 40)
+    height = projected[:, 2] - curved * projected[:, 0] * projected[:, 1]
+    assert height[inner].std() < 0.5 * (moved[:, 2] - curved * moved[:, 0] * moved[:, 1])[inner].std()
+    # Weights fall to exp(-4) at the radius of 40 points of density 750: the extent is 0.33 of that.
+    assert noise == pytest.approx(0.01 / (0.33 * np.sqrt(40 / 750 / np.pi)), rel=0.15)
 
 
 def test_what_is_no_closed_surface_stays_a_cloud() -> None:
