@@ -11,8 +11,8 @@ import kfmaps
 from conftest import blob, fibonacci_sphere
 from kfmaps import InvalidInput
 from kfmaps.datasets import symmetric_creature, torus
-from kfmaps.geometry.cloud_surface import _fit_quadrics, crust_faces, surface_of_cloud
-from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
+from kfmaps.geometry.cloud_surface import _fit_quadrics, crust_faces, project_noise, surface_of_cloud
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_normals
 
 GUARDS = ("kfmaps.geometry.cloud_surface", "kfmaps.shape")
 
@@ -51,6 +51,13 @@ def test_noisy_points_are_projected_and_too_much_noise_leaves_a_cloud() -> None:
         assert off[1] < left * off[0]
         assert surface_area(found) == pytest.approx(4 * np.pi, rel=0.02)
     assert surface_of_cloud(noisy(mesh, 6 * spacing)) is None
+
+
+def test_noise_leaves_few_handles() -> None:
+    """The Euler characteristic of a body like a sphere stays near 2; links with less sharp weights make it −11."""
+    mesh = unit_area(symmetric_creature(3000, rng=1).source)
+    faces = crust_faces(project_noise(noisy(mesh, 0.01)))
+    assert len(np.unique(faces)) - len(faces) / 2 > -6
 
 
 @pytest.mark.parametrize("curved", [0.0, 0.5])

@@ -18,8 +18,8 @@ _LARGEST = 10.0
 _NEIGHBOURS = 18
 """Nearest points that noise is estimated from."""
 _MAX_NOISE = 0.15
-"""Estimated noise, see :func:`_fit_quadrics`, from which points are projected; clean bodies have 0.02 to 0.12, and 0.3 and
-0.67 with noise of 0.003 and 0.01 √area on 5,000 points (benchmarks/clouds.py, choice half)."""
+"""Estimated noise, see :func:`_fit_quadrics`, from which points are projected. Clean bodies have 0.02 to 0.12; noise of
+0.003 and 0.01 √area makes 0.3 and 0.67 on 5,000 points."""
 _NEIGHBOURS_PER_NOISE = 450.0
 """Neighbours to project by, over the squared noise."""
 _PROJECTED_BY = 30, 75
@@ -29,8 +29,8 @@ _PROJECTIONS = 3
 _AT_ONCE = 4000
 """Points that are projected at once."""
 _MAX_ROUGHNESS = 0.14
-"""Median height of a vertex over its neighbours' mean, over the length of edges: with more
-noise maps were wrong and called "sure". Clean bodies have 0.05 to 0.12."""
+"""Median height of a vertex over its neighbours' mean, over the length of edges: with more noise maps were wrong and
+called "sure". Clean bodies have 0.05 to 0.12."""
 _MIN_USED = 0.95
 """Share of the points that must be corners of faces."""
 _MAX_AREA_RATIO = 1.2
@@ -111,7 +111,8 @@ def _fit_quadrics(points: np.ndarray, count: int) -> tuple[np.ndarray, float]:
         height = (_quadratic_powers(own) @ quadric - own[:, :, :1])[:, 0] * size[:, 0]
         projected[some] = points[some] + height * axes[:, :, 0]
         missed = (around[:, :, :1] - powers @ quadric)[:, :, 0]
-        noise[some] = np.sqrt((weights * missed**2).sum(axis=1) * extent[:, 2] / np.maximum(extent[:, 1], 1e-12 * extent[:, 2]))
+        narrow = np.maximum(extent[:, 1] / extent[:, 2], 1e-12)
+        noise[some] = np.sqrt((weights * missed**2).sum(axis=1) / narrow)
     return projected, float(np.median(noise))
 
 
