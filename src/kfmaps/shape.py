@@ -30,6 +30,10 @@ FEW, NEARLY = 3_000, 1e-2
 """Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
+_NO_SURFACE = (
+    "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
+    "told: give three landmarks, or a mesh made from the points"
+)
 _NORMALS = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
 
@@ -145,10 +149,14 @@ def prepare(
         remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
         raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
     _tell(part, name)
-    if is_cloud and config.descriptors.shot and (surface := surface_of_cloud(small.vertices)) is not None:
-        mesh = Mesh(surface.vertices[part.to_clean], part.to_original[surface.faces])
-        part = clean_mesh(mesh, specks=True)
-        small = unit_area(part.mesh)
+    if is_cloud and config.descriptors.shot:
+        surface = surface_of_cloud(small.vertices)
+        if surface is None:
+            warnings.warn(f"{name}: {_NO_SURFACE}", KfmapsWarning, stacklevel=2)
+        else:
+            mesh = Mesh(surface.vertices[part.to_clean], part.to_original[surface.faces])
+            part = clean_mesh(mesh, specks=True)
+            small = unit_area(part.mesh)
     seconds = {}
     start = time.perf_counter()
     report(f"eigenfunctions of {name}", 0.0)
