@@ -65,7 +65,7 @@ def main() -> None:
                 given = (source, target) if noise is None else [Mesh(points) for points, _ in clouds]
                 begun = time.process_time()
                 shapes = [kfmaps.prepare(mesh, config) for mesh in given]
-                found = kfmaps.match(*shapes, config)
+                found = kfmaps.match(shapes[0], shapes[1], config)
                 seconds = time.process_time() - begun
                 images = found.target_to_source[true_t]
                 least = least_error(source, clouds[0][0], cloud(source, 0, noise or 0.0, rng)[0], clouds[0][1])
