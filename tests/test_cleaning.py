@@ -89,6 +89,14 @@ def quietly(mesh: Mesh, config: Config = SMALL):
         return prepare(mesh, config)
 
 
+def test_all_that_surrounds_a_surface_is_scaled_with_it() -> None:
+    mesh = littered(blob(300))
+    mesh = Mesh(5 * mesh.vertices + 7, mesh.faces)
+    ready = quietly(mesh).mesh.vertices
+    factor = np.linalg.norm(ready[0] - ready[100]) / np.linalg.norm(mesh.vertices[0] - mesh.vertices[100])
+    np.testing.assert_allclose(ready - ready[0], factor * (mesh.vertices - mesh.vertices[0]), atol=1e-9)
+
+
 @pytest.mark.parametrize("cut", [soup, seamed])
 def test_cut_surfaces_are_connected_inside(cut) -> None:
     mesh = blob(300)

@@ -9,6 +9,7 @@ import pytest
 
 from conftest import blob
 from kfmaps import datasets
+from kfmaps._arrays import InvalidInput
 from kfmaps.cli.partial_truth import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
 from kfmaps.fmap.evaluate import precise_errors
@@ -17,7 +18,7 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import _boundary_opening, detect_part
-from kfmaps.matching.partial.match_partial import describe_part
+from kfmaps.matching.partial.match_partial import describe_part, match_partial
 from kfmaps.matching.partial.place_part import _same_units
 from kfmaps.matching.partial.relaxation_labeling import _SLACK, Assignment, consistency, distance_bounds, reassign
 from kfmaps.matching.partial.samples import part_samples
@@ -250,6 +251,24 @@ def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, told):
 )
 def test_two_parts_of_like_size_are_in_one_unit(scale: str, ratio: float | None, both: bool, same: bool) -> None:
     assert _same_units(scale, ratio, both) == same
+
+
+@pytest.mark.parametrize("which", ["source", "target"])
+def test_a_part_is_placed_in_units_of_the_whole(monkeypatch, which):
+    """Whichever shape is the part, the ratio is its unit over that of the whole."""
+    mesh = blob(200)
+    small, large = (prepare(Mesh(size * mesh.vertices, mesh.faces), SMALL, name="a") for size in (1.0, 3.0))
+    seen = []
+
+    def place(*_, ratio, **__):
+        seen.append(ratio)
+        raise InvalidInput("that is enough")
+
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
+    for shapes in ((small, large), (large, small)):
+        with pytest.raises(InvalidInput, match="enough"):
+            match_partial(*shapes, SMALL, which)
+    assert seen == pytest.approx([1 / 3, 3] if which == "source" else [3, 1 / 3])
 
 
 def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
