@@ -20,7 +20,15 @@ from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
 from kfmaps.matching.partial.place_part import _same_units
-from kfmaps.matching.partial.relaxation_labeling import _SLACK, Assignment, consistency, distance_bounds, reassign
+from kfmaps.matching.partial.relaxation_labeling import (
+    _SLACK,
+    Assignment,
+    RelaxationParams,
+    consistency,
+    distance_bounds,
+    reassign,
+    relax,
+)
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.matching.score import SCORE, probability, verdict
@@ -269,6 +277,21 @@ def test_a_part_is_placed_in_units_of_the_whole(monkeypatch, which):
         with pytest.raises(InvalidInput, match="enough"):
             match_partial(*shapes, SMALL, which)
     assert seen == pytest.approx([1 / 3, 3] if which == "source" else [3, 1 / 3])
+
+
+def test_distances_decide_between_places_that_look_alike(rng):
+    """Of each sample's two best places by descriptors one keeps the distances; the best of all does not."""
+    whole = rng.normal(size=(60, 3))
+    distances = np.linalg.norm(whole[:, None] - whole, axis=2)
+    at = rng.permutation(60)
+    true, decoy = at[:20], at[20:40]
+    bounds = distance_bounds(distances[np.ix_(true, true)], np.full(20, 9.0), 1.0)
+    similarity = np.zeros((20, 60))
+    similarity[np.arange(20), true], similarity[np.arange(20), decoy] = 1.0, 1.01
+    found = relax(bounds, distances, similarity, RelaxationParams(candidates=3, reach=9.0))
+    np.testing.assert_array_equal(found.match, true)
+    np.testing.assert_allclose(found.trust, 1.0, atol=0.2)
+    assert found.support > 0.9
 
 
 def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
