@@ -15,6 +15,7 @@ from kfmaps.io.mapfile import load_map, save_map
 from kfmaps.io.meshes import read_mesh, read_mesh_file, write_mesh
 from kfmaps.io.record import MeshFile
 from kfmaps.io.text import read_text
+from kfmaps.io.transfer import transfer
 from kfmaps.io.vertex_data import Values, read_values, write_values
 
 __all__ = [
@@ -35,6 +36,7 @@ __all__ = [
     "read_vertex_numbers",
     "remove_unfinished",
     "save_map",
+    "transfer",
     "write_colored",
     "write_landmarks",
     "write_mesh",

@@ -6,6 +6,7 @@ import tempfile
 import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +28,7 @@ _EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
 _MOST_TEXELS = 2048  # longer side of the largest picture of a texture in a page.
 
 
-def _match_summary(match: Match) -> dict[str, object]:
+def _match_summary(match: Match) -> dict[str, Any]:
     """Return what a page tells of a match: settings, energies, residuals, times, outcome."""
     fit, config = match.fit, getattr(match, "config", None)
     told = {
