@@ -178,7 +178,7 @@ def test_quality_does_not_depend_on_position_or_units(shape):
 def test_mirror_image_equals_preparing_the_mirrored_mesh(shape):
     image = mirror_image(shape)
     assert image.shot is not None
-    np.testing.assert_allclose(image.shot, shot(image.mesh, 0.15), atol=1e-8)
+    np.testing.assert_allclose(image.shot, shot(image.mesh, 0.15), atol=1e-5)
     cloud = replace(shape, mesh=Mesh(shape.mesh.vertices, np.zeros((0, 3), dtype=int)))
     with pytest.raises(InvalidInput, match="mirrored"):
         mirror_image(cloud)

@@ -29,8 +29,9 @@ def test_agrees_with_the_plain_loop(form, radius, bins, samples):
     wanted = plain_shot(mesh, radius, bins, form, samples)
     assert found.shape == (44, 32 * (bins + 1))
     # Squares, as roots magnify the rounding of a share that is nearly zero.
-    np.testing.assert_allclose(found**2, wanted**2, atol=1e-10)
-    np.testing.assert_allclose(found, wanted, atol=1e-6)
+    near = 1e-10 if form == "paper" else 1e-6  # single precision
+    np.testing.assert_allclose(found**2, wanted**2, atol=near)
+    np.testing.assert_allclose(found, wanted, atol=near**0.5 / 10)
 
 
 def test_on_a_plane_the_shares_are_known():

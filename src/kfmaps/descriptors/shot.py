@@ -62,6 +62,11 @@ class _Pairs:
             sums[..., self.i[self.first]] = np.add.reduceat(values, self.first, axis=-1)
         return sums
 
+    @property
+    def tie(self) -> float:
+        """Relative difference up to which sums count as equal."""
+        return 1e-6 if self.weight.dtype == np.float32 else 1e-9
+
     @cached_property
     def first(self) -> np.ndarray:
         """The first pair of each vertex that has one."""
@@ -69,7 +74,7 @@ class _Pairs:
 
     def along(self, axis: np.ndarray, vectors: np.ndarray) -> np.ndarray:
         """Of ``vectors (3, p)``, the part along the ``axis (count, 3)`` of each vertex."""
-        x, y, z = axis.T.take(self.i, axis=1) * vectors
+        x, y, z = axis.T.astype(vectors.dtype).take(self.i, axis=1) * vectors
         return x + y + z
 
 
@@ -262,8 +267,11 @@ def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: floa
     order = order[found["v"].take(order) > 1e-9 * radius]
     i, j, distance = found["i"].take(order), found["j"].take(order), found["v"].take(order) / radius
     offset = (support.points.take(j, axis=0).T - centres.take(i, axis=0).T) / radius
-    normal = np.ascontiguousarray(support.normals.take(j, axis=0).T)
-    pairs = _Pairs(i, offset, distance, normal, support.weights[j], len(centres))
+    # For an integral over the surface single precision serves: descriptors differ by 3e-6.
+    real = np.float64 if form == "paper" else np.float32
+    distance, offset, weight = distance.astype(real), offset.astype(real), support.weights.astype(real).take(j)
+    normal = np.ascontiguousarray(support.normals.astype(real).take(j, axis=0).T)
+    pairs = _Pairs(i, offset, distance, normal, weight, len(centres))
     if form == "paper":
         return unit_rows(_histograms(pairs, _frames(pairs, form), pairs.weight, bins))
     faded = pairs.weight * (10 * (1 - distance)).clip(-np.inf, 1)
@@ -281,7 +289,7 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
         vectors = np.linalg.eigh(covariance)[1]
         x, z = vectors[:, :, 2], _towards(pairs, vectors[:, :, 0], mean_normal)
     else:
-        cancelled = np.linalg.norm(mean_normal, axis=1) <= 1e-9 * pairs.total(near)
+        cancelled = np.linalg.norm(mean_normal, axis=1) <= pairs.tie * pairs.total(near)
         z = unit_rows(np.where(cancelled[:, None], 0, mean_normal))
         down = z[:, :, None] * z[:, None, :]
         across = np.eye(3) - down
@@ -296,8 +304,8 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
 def _towards(pairs: _Pairs, axis: np.ndarray, fallback: np.ndarray) -> np.ndarray:
     """``axis`` (count, 3) turned to the heavier side, or to the side of ``fallback`` where both weigh the same."""
     height = pairs.along(axis, pairs.offset)
-    votes = pairs.total(pairs.weight * np.sign(np.where(np.abs(height) < 1e-9, 0, height)))
-    tie = np.abs(votes) <= 1e-9 * pairs.total(pairs.weight)
+    votes = pairs.total(pairs.weight * np.sign(np.where(np.abs(height) < pairs.tie, 0, height)))
+    tie = np.abs(votes) <= pairs.tie * pairs.total(pairs.weight)
     side = np.where(tie, np.einsum("ij,ij->i", axis, fallback), votes)
     return np.where(side[:, None] < 0, -axis, axis)
 
@@ -320,7 +328,7 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     first = np.minimum(step.astype(np.int64), bins - 1)
     step -= first
     rows = np.empty((len(i), 4), dtype=np.int32)
-    parts = np.empty((len(i), 4))
+    parts = np.empty((len(i), 4), dtype=weight.dtype)
     ahead = turn * step
     parts[:, 0], parts[:, 1], parts[:, 2], parts[:, 3] = 1 - turn - step + ahead, step - ahead, turn - ahead, ahead
     start = i * _AZIMUTHS
@@ -330,7 +338,7 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
         rows[:, 2 * a], rows[:, 2 * a + 1] = row, row + 1
     height = np.arccos(np.clip(z / pairs.distance, -1, 1)) * (_ELEVATIONS / np.pi) - 0.5
     depth = pairs.distance * _SHELLS - 0.5
-    nodes = np.empty((len(i), _ELEVATIONS * _SHELLS))
+    nodes = np.empty((len(i), _ELEVATIONS * _SHELLS), dtype=weight.dtype)
     inward = [(1 - np.abs(depth - d)).clip(0, np.inf) for d in range(_SHELLS)]
     for e in range(_ELEVATIONS):
         across = (1 - np.abs(height - e)).clip(0, np.inf) * weight
