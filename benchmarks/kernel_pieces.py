@@ -68,12 +68,13 @@ def _of_unit_variance(sides: Sides) -> Sides:
     return [side / unit for side in sides]
 
 
-def _gaussian_features(sides: Sides, sharpness: float) -> Sides:
+def _components(sides: Sides, sharpness: float, dimensions: int) -> guidance.DescriptorGuidance | None:
+    """Principal components of Nyström features of a Gaussian of descriptors of both shapes."""
     rng = np.random.default_rng(0)
     some = [side[rng.choice(len(side), min(SAMPLES, len(side)), replace=False)] for side in sides]
     samples = np.vstack(some)
     kernel = nystrom(resolve_kernel(Gaussian(), samples, sharpness), samples, 1e-6)
-    return [kernel.features(side) for side in sides]
+    return guidance.descriptor_guidance(kernel.features(sides[0]), kernel.features(sides[1]), dimensions)
 
 
 def kernel_guidance(sharpness: float, dimensions: int, kind: str = "SHOT") -> Callable[..., Any]:
@@ -92,16 +93,13 @@ def kernel_guidance(sharpness: float, dimensions: int, kind: str = "SHOT") -> Ca
             sets, root = (_of_unit_variance(sides), heat, waves), np.sqrt(SPECTRAL)
             if kind == "sum":
                 counts = dimensions, SPECTRAL_DIMENSIONS, SPECTRAL_DIMENSIONS
-                each = [
-                    guidance.descriptor_guidance(*_gaussian_features(one, sharpness), count)
-                    for one, count in zip(sets, counts, strict=True)
-                ]
+                each = [_components(one, sharpness, count) for one, count in zip(sets, counts, strict=True)]
                 joined = guidance.combine_guidance(list(zip((1.0, SPECTRAL, SPECTRAL), each, strict=True)))
                 assert joined is not None
                 unit = np.sqrt(1 + 2 * SPECTRAL)
                 return guidance.DescriptorGuidance(joined.source / unit, joined.target / unit)
             sides = [np.hstack([a, root * b, root * c]) for a, b, c in zip(*sets, strict=True)]
-        return guidance.descriptor_guidance(*_gaussian_features(sides, sharpness), dimensions)
+        return _components(sides, sharpness, dimensions)
 
     return made
 
