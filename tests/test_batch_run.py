@@ -20,6 +20,7 @@ import numpy as np
 import psutil
 import pytest
 import threadpoolctl
+from distributed.scheduler import NoWorkerError
 
 from collecting import CONFIG, Deadly, done, plan_of, write_collection
 from kfmaps._arrays import InvalidInput, MissingDependency
@@ -373,6 +374,17 @@ def test_workers_that_are_lost_on_the_way(tmp_path: Path, monkeypatch: pytest.Mo
         cluster: Any = pool.client.cluster
         cluster.scale(0)
         with pytest.raises(InvalidInput, match="workers: expected processes that stay alive, got none for 1s"):
+            pool.map("numbers", abs, [-1, -2])
+
+
+def test_the_last_worker_may_die_before_it_hands_over_what_it_has_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def lost(*_: object, **__: object) -> None:
+        raise NoWorkerError("abs", 1)
+
+    with WorkerPool(1) as pool:
+        assert pool.map("numbers", abs, [-1, -2]) == [1, 2]
+        monkeypatch.setattr("distributed.client.Future._result", lost)
+        with pytest.raises(InvalidInput, match="workers: expected processes that stay alive, got none for"):
             pool.map("numbers", abs, [-1, -2])
 
 

@@ -119,7 +119,7 @@ class WorkerPool:
         from distributed.scheduler import NoWorkerError
 
         client = self.client
-        finished = as_completed(with_results=True, raise_errors=False, loop=client.loop)
+        finished = as_completed(loop=client.loop)
         before = [n_begun(item) if n_begun else 0 for item in items]
         waiting = deque(range(len(items)))
         running: dict[Future, int] = {}
@@ -131,18 +131,27 @@ class WorkerPool:
                     self._labels[future.key] = label(items[number])
                     running[future], self.begun[number] = number, time.monotonic()
                     finished.add(future)
-                future, value = next(finished)
+                future = next(finished)
                 number = running.pop(future)
                 del self._labels[future.key], self.begun[number]
-                error = value[1] if future.status == "error" else value if isinstance(value, CancelledError) else None
-                if isinstance(error, CancelledError):
-                    raise refuse("scheduler", "an answer", "none any more", "run the same command again to go on")
-                if isinstance(error, NoWorkerError):
-                    raise refuse("workers", "processes that stay alive", f"none for {NO_WORKERS}", TOO_LITTLE_MEMORY)
-                if isinstance(error, KilledWorker) and n_begun and n_begun(items[number]) - before[number] < MAX_DEATHS:
-                    waiting.append(number)
-                    continue
-                yield number, value if error is None else error
+                value: _Value | Exception
+                try:
+                    # Not by as_completed: what is raised while that fetches a value is lost, and it waits for ever.
+                    value = future.result()
+                except CancelledError:
+                    remedy = "run the same command again to go on"
+                    raise refuse("scheduler", "an answer", "none any more", remedy) from None
+                except NoWorkerError:
+                    got = f"none for {NO_WORKERS}"
+                    raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from None
+                except KilledWorker as error:
+                    if n_begun and n_begun(items[number]) - before[number] < MAX_DEATHS:
+                        waiting.append(number)
+                        continue
+                    value = error
+                except Exception as error:
+                    value = error
+                yield number, value
         finally:
             self.begun.clear()
             with suppress(Exception):  # a scheduler that is lost has nothing to cancel
