@@ -3,11 +3,13 @@
 import numpy as np
 
 from kfmaps.geometry.mesh import Mesh
+from dataclasses import replace
+
 from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_placements
-from kfmaps.matching.partial.relaxation_labeling import distance_bounds
+from kfmaps.matching.partial.relaxation_labeling import Assignment, consistency, distance_bounds
 from kfmaps.matching.partial.samples import PartPair, PartSamples
-from kfmaps.matching.partial.scale_search import TRIALS, _shot_scale
+from kfmaps.matching.partial.scale_search import TRIALS, _agreeing, _shot_scale
 from kfmaps.matching.score import SCORE
 
 GUARDS = ("kfmaps.matching.partial",)
@@ -67,3 +69,31 @@ def test_a_landmark_allows_no_rival_that_moves_it():
     for one in _alternative_placements(PartPair(part, whole, threads=1), SCALE, points):
         assert one.placed.match[:2].tolist() == [0, 1]
         assert one.placed.support < 0.9
+
+
+def test_distances_of_two_parts_agree_as_far_as_ways_around_both_boundaries_explain():
+    _, part, whole = sheet()
+    rng = np.random.default_rng(1)
+    away = [rng.uniform(0, 0.3, 2 * HALF).astype(np.float32) for _ in range(2)]
+    part, whole = replace(part, boundary_distance=away[0] / SCALE), replace(whole, boundary_distance=away[1])
+    match = rng.permutation(2 * HALF)
+    fits, near = PartPair(part, whole, both_partial=True).agreement(SCALE, match)
+    for i, j in ((0, 1), (5, 50), (60, 61), (7, 90)):
+        one, other = part.distances[i, j] * SCALE, whole.distances[match[i], match[j]]
+        shortest = min(one, away[0][i] + away[0][j]), min(other, away[1][match[i]] + away[1][match[j]])
+        change = max(shortest[0] - other, shortest[1] - one, 0.0)
+        assert near[i, j] == (one < 0.6)
+        wanted = consistency(np.array([one]), np.array([one]), np.array([one + change])) if near[i, j] else 0.0
+        np.testing.assert_allclose(fits[i, j], wanted, atol=1e-5)
+    assert not near.diagonal().any()
+
+
+def test_samples_without_a_place_are_not_trusted():
+    _, part, whole = sheet()
+    pair = PartPair(part, whole, both_partial=True)
+    match = np.arange(2 * HALF)
+    match[80:] = np.random.default_rng(0).permutation(40) + 80
+    moved = match != np.arange(2 * HALF)
+    trust = _agreeing(pair, SCALE, Assignment(match, np.full(2 * HALF, 0.5), 1.0))
+    assert trust[~moved].min() > 0.6
+    assert np.median(trust[moved]) == 0.0

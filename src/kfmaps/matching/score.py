@@ -59,6 +59,10 @@ class PartScoring:
     """Fitted by `benchmarks/parts_verdict.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
+    w_pair_consistency: float = 12.0
+    """Weight of :attr:`PartEvidence.pair_consistency` over :attr:`usual_pair_consistency`."""
+    usual_pair_consistency: float = 0.85
+    """That of right placements of two parts: 0.75 to 0.93, where wrong ones have 0.5 to 0.78."""
     w_similarity_rank: float = 1.0
     """Weight of :attr:`PartEvidence.similarity_rank`."""
     w_gap: float = 50.0
@@ -265,6 +269,8 @@ class PartEvidence:
     deformation_energy: float = math.inf  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
     gap: float = 0.0
     flipped_area: float = 0.0
+    # Of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
+    pair_consistency: float = PartScoring.usual_pair_consistency
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
@@ -311,6 +317,7 @@ def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -
 def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
     """Return the score of a placement of a part, higher is better."""
     fits = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap - numbers.w_flipped * evidence.flipped_area
+    fits += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
     stiff = -math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
     return fits + numbers.w_deformation * stiff
 

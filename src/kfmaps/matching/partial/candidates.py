@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._threads import parallel
-from kfmaps.matching.partial.registration import PartRegistration, register_part
+from kfmaps.matching.partial.registration import PartRegistration, find_overlap, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair
 from kfmaps.matching.partial.scale_search import (
@@ -52,12 +52,23 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     """
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
-    trust = np.maximum(placement.placed.trust, 0.01)
+    trust = np.maximum(placement.placed.trust, 1e-4 if pair.both_partial else 0.01)
     found = register_part(pair, placement.scale, points, normals, trust, quick=True)
     evidence = replace(
         placement.evidence, deformation_energy=found.deformation_energy, gap=found.gap, flipped_area=found.flipped_area
     )
+    if pair.both_partial:
+        evidence = replace(evidence, pair_consistency=_pair_consistency(found, pair))
     return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
+
+
+def _pair_consistency(found: PartRegistration, pair: PartPair) -> float:
+    """Return how well distances on two parts agree, between samples of the overlap, from 0 to 1."""
+    samples, whole = pair.part.samples, pair.whole
+    match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(found.vertices[samples])[1])
+    fits, near = pair.agreement(found.scale, match)
+    on = find_overlap(found, whole).part[samples]
+    return float(on @ fits @ on / max(on @ near @ on, 1e-12))
 
 
 def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list[PartCandidate]:

@@ -78,7 +78,7 @@ def place_part(
         part_samples(copy.mesh, count, copy.owner[marks], rng)
         for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
     ]
-    pair = PartPair(samples[0], samples[1], fixed, config.threads)
+    pair = PartPair(samples[0], samples[1], fixed, config.threads, both_partial)
     report(0.15)
     scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER_SCALES if both_partial else ())]
     if not fixed and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:

@@ -12,7 +12,7 @@ from kfmaps.descriptors.shot import shot
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh, boundary_vertices
-from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
+from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
 _SUPPORT = 10_000
@@ -58,16 +58,44 @@ class PartSamples(PartSurface):
 
 @dataclass(frozen=True, eq=False)
 class PartPair:
-    """A part and the whole, whether the scale of the part is known, and the threads to place it with."""
+    """A part and the whole, whether the scale of the part is known, the threads to place it with, and whether the whole
+    may lack something too."""
 
     part: PartSamples
     whole: PartSamples
     fixed_scale: bool = False
     threads: int | None = None
+    both_partial: bool = False
 
     def bounds(self, scale: float) -> DistanceBounds:
         """Return the bounds of the part's distances on the whole at a ``scale``."""
         return distance_bounds(self.part.distances, self.part.boundary_distance, scale)
+
+    def agreement(self, scale: float, match: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return how well distances of two parts agree, and which pairs of samples are near enough to count.
+
+        Either distance may be too long where it may lead around a boundary.
+
+        Parameters
+        ----------
+        scale : float
+            √area of the part over that of the whole.
+        match : (q,) int
+            The whole's sample of each of the part's.
+
+        Returns
+        -------
+        fits : (q, q) float
+            From 0 to 1; 0 where a pair does not count.
+        near : (q, q) bool
+        """
+        bounds, away = self.bounds(scale), self.whole.boundary_distance[match]
+        there = self.whole.distances[np.ix_(match, match)]
+        shortest = np.minimum(there, away[:, None] + away)
+        change = np.maximum(np.maximum(bounds.lower - there, shortest - bounds.upper), 0.0)
+        near = (bounds.upper < RelaxationParams.reach) & np.isfinite(there)
+        np.fill_diagonal(near, False)
+        return np.where(near, consistency(bounds.upper, bounds.upper, bounds.upper + change), 0.0), near
 
 
 def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int = 0) -> PartSamples:
