@@ -1,10 +1,10 @@
 """Placings of a part that leave the one it has: on a sheet that half a turn lays on itself there is exactly one."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from kfmaps.geometry.mesh import Mesh
-from dataclasses import replace
-
 from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_placements
 from kfmaps.matching.partial.relaxation_labeling import Assignment, consistency, distance_bounds
