@@ -99,7 +99,7 @@ def test_the_long_stages_of_a_shape_tell_how_far_they_are() -> None:
         assert stages[0] == 0
         assert stages[-1] == 1
         assert stages == sorted(stages)
-        assert len(stages) > 5
+        assert len(stages) >= 5
     silent = prepare(mesh, config)
     np.testing.assert_array_equal(shape.basis.functions, silent.basis.functions)
     assert shape.shot is not None
