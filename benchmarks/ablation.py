@@ -38,6 +38,9 @@ from kfmaps.matching import (
 )
 from kfmaps.matching import match as matching
 
+KEY = "set", "pair", "seed"
+"""What a row and the row without a change have in common."""
+
 
 def _first(found: Any, *_: Any, **__: Any) -> Any:
     return found
@@ -96,9 +99,6 @@ def told(rows: list[dict[str, Any]]) -> str:
     sure = [row["verdict"] == "sure" for row in rows]
     wrong = sum(s and not r for s, r in zip(sure, right, strict=True))
     return f"{sum(right):4} {sum(sure):4} {wrong:4} {np.mean([row['cpu'] for row in rows]):6.1f}"
-
-
-KEY = "set", "pair", "seed"
 
 
 def _of_whole(rows: list[dict[str, Any]]) -> dict[tuple[Any, ...], dict[str, Any]]:

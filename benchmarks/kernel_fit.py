@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from ablation import report
 from automatic import Job, chosen_landmarks, loaded
-from scatter import POINTS, chosen_pairs
+from scatter import POINTS, Judged, chosen_pairs
 
 import kfmaps
 from kfmaps.geometry.geodesics import geodesic_distances
@@ -36,7 +36,7 @@ def rows_of(job: Job) -> list[dict[str, Any]]:
     source, target = (kfmaps.prepare(mesh, plain) for mesh in meshes)
     marks = chosen_landmarks(source, (true_s, true_t), LANDMARKS, 0.0)
     some = np.random.default_rng(0).permutation(len(true_t))[:POINTS]
-    away = geodesic_distances(source.mesh, true_s[some])
+    of = Judged(source, target, true_s[some], true_t[some], geodesic_distances(source.mesh, true_s[some]))
     for count in COUNTS:
         for name, kernel in KERNELS.items():
             config = replace(plain, kernel=kernel, descriptors=replace(plain.descriptors, n_spectral=count))
@@ -47,7 +47,7 @@ def rows_of(job: Job) -> list[dict[str, Any]]:
             for stage, points in (("raw", made.fit.raw_target_to_source), ("refined", made.target_to_source)):
                 row = {"set": job.kind, "pair": f"{job.source}-{job.target}, {count}, {stage}", "seed": 0}
                 piece = name and f"{name}, {count} descriptors, {stage}"
-                error = 100 * float(away[np.arange(len(some)), np.asarray(points)[true_t[some]]].mean())
+                error = of.error(np.asarray(points)[of.true_t])
                 rows.append({**row, "piece": piece, "error": error, "verdict": made.verdict, "cpu": spent})
     return rows
 

@@ -16,6 +16,8 @@ from kfmaps.descriptors.shot import mirror_shot
 from kfmaps.descriptors.spectral import heat_signature, wave_signature
 from kfmaps.fmap import descriptor_guidance as guidance
 from kfmaps.fmap import zoomout
+from kfmaps.fmap.energy import Energy, adjoint_term
+from kfmaps.fmap.solvers import CG, solve
 from kfmaps.kernels.kernels import Gaussian, resolve_kernel
 from kfmaps.kernels.nystrom import nystrom
 from kfmaps.matching import (
@@ -37,8 +39,10 @@ SPECTRAL = 0.3
 """Squared differences of heat and of wave kernel signatures, each, where those of SHOT are 1."""
 SPECTRAL_DIMENSIONS = 16
 """Principal components of the kernel of heat and of waves where each set has a kernel of its own."""
-FIRST, LAST, STEPS = 25, 100, 15
-"""Functions at which the energy has its full weight, and from which it has none; steps of conjugate gradients."""
+FIRST, LAST = 25, 100
+"""Functions at which the energy has its full weight, and above which it has none."""
+SOLVER = CG(rtol=1e-4, max_iter=15)
+"""Of a step with the energy."""
 KEY = 6  # entries of SHOT that tell a vertex from the others
 
 _signatures: dict[bytes, np.ndarray] = {}
@@ -131,14 +135,10 @@ def energy_in_zoomout(weight: float) -> list[Patch]:
         C = np.asarray(project(points, source, target, k, ridge), dtype=np.float64)
         if k not in energies:
             return C
-        terms = [energies[k].terms[name] for name in ("descriptors", "commutativity")]
-        shares = [weight * FIRST / k / len(terms) / float(np.mean(term.diagonal())) for term in terms]
-
-        def apply(X: np.ndarray) -> np.ndarray:
-            return X + sum(share * np.asarray(term.apply(X)) for share, term in zip(shares, terms, strict=True))
-
-        right = C + sum(share * np.asarray(term.rhs()) for share, term in zip(shares, terms, strict=True))
-        return _conjugate_gradients(apply, right, C)
+        terms = {name: energies[k].terms[name] for name in ("descriptors", "commutativity")}
+        weights = {name: weight * FIRST / k / len(terms) / float(np.mean(t.diagonal())) for name, t in terms.items()}
+        both = Energy({"map": adjoint_term(C.T), **terms}, {"map": 1.0, **weights})
+        return np.asarray(solve(both.apply, both.rhs(), SOLVER, C).value)
 
     return [(finish, "refine_map", refine_map), (zoomout, "fit_functional_map", fit)]
 
@@ -157,17 +157,3 @@ def _energies(source: Any, target: Any, sizes: list[int]) -> dict[int, Any]:
     finally:
         initial_maps.minimize_problem, initial_maps.fit_of_problem = replaced
     return {k: problem.energy for k, problem in zip(sizes, problems, strict=True)}
-
-
-def _conjugate_gradients(apply: Callable[[np.ndarray], np.ndarray], right: np.ndarray, X: np.ndarray) -> np.ndarray:
-    left = right - apply(X)
-    direction, size = left, float((left**2).sum())
-    for _ in range(STEPS):
-        if size < 1e-8 * float((right**2).sum()):
-            break
-        image = apply(direction)
-        length = size / float((direction * image).sum())
-        X, left = X + length * direction, left - length * image
-        before, size = size, float((left**2).sum())
-        direction = left + size / before * direction
-    return X

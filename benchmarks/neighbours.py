@@ -22,6 +22,7 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.nearest import nearest
+from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.matching.fit import fit
@@ -32,7 +33,7 @@ from kfmaps.shape import prepare
 def quartered(mesh: Mesh) -> Mesh:
     """Every triangle cut in four at the middles of its edges; the old vertices come first."""
     n, faces = len(mesh.vertices), mesh.faces
-    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    sides = np.sort(half_edges(faces), axis=1)
     edges, number = np.unique(sides, axis=0, return_inverse=True)
     a, b, c = (number.reshape(3, -1) + n)[:, :, None]
     p, q, r = faces.T[:, :, None]

@@ -19,6 +19,7 @@ import numpy as np
 
 import kfmaps
 from kfmaps.config import Config
+from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io.meshes import read_mesh
 
@@ -47,7 +48,7 @@ def raw_scan(mesh: Mesh, n: int, rng: int = 0) -> Mesh:
 def subdivide(mesh: Mesh, broken: np.random.Generator | None = None) -> Mesh:
     """Divide each triangle into four; with ``broken``, every twentieth stays as it is beside divided ones."""
     x, f = mesh.vertices, mesh.faces
-    edges = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
+    edges = np.sort(half_edges(f), axis=1)
     unique, number = np.unique(edges, axis=0, return_inverse=True)
     a, b, c = number.reshape(3, -1) + len(x)
     middle = x[unique].mean(axis=1)

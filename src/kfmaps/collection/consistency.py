@@ -145,10 +145,10 @@ def refine_replacement(
     known = KnownMap(
         points,
         label,
-        "reversing" if turned else "preserving",
-        probability_word(replacement.after.probability),
-        replacement.after.probability,
-        replacement.after.score,
-        tuple(np.asarray(row) for row in others),
+        orientation="reversing" if turned else "preserving",
+        verdict=probability_word(replacement.after.probability),
+        confidence=replacement.after.probability,
+        quality=replacement.after.score,
+        alternatives=tuple(np.asarray(row) for row in others),
     )
     return match_from_map(*shapes, known, config, seed)

@@ -74,30 +74,30 @@ class ShiftedFactorizer:
 
     def __init__(self, matrix: SparseMatrix) -> None:
         self.matrix = matrix
-        self._ordered: tuple[np.ndarray, csc_array, np.ndarray] | None = None
+        self._ordered: tuple[np.ndarray, np.ndarray, csc_array, np.ndarray] | None = None
 
     def __call__(self, scale: float, diagonal: np.ndarray) -> Solve:
         """Return what :func:`factorize` returns for ``scale · matrix + diag(diagonal)``, ``diagonal (n,)``."""
         if self._ordered is None:
             first = scale * self.matrix + diags_array(diagonal)
             factor = _factor(first, ordered=False)
-            self._ordered = self._with_diagonal(np.argsort(factor.perm_c))
+            order = np.argsort(factor.perm_c)
+            self._ordered = order, np.argsort(order), *self._with_diagonal(order)
             return _solver(factor, first.dtype, map)
-        order, base, places = self._ordered
+        order, back, base, places = self._ordered
         data = scale * base.data
         data[places] += diagonal[order]
         solve = factorize(csc_array((data, base.indices, base.indptr), shape=base.shape), ordered=True)
-        back = np.argsort(order)
         return lambda block: solve(block[order])[back]
 
-    def _with_diagonal(self, order: np.ndarray) -> tuple[np.ndarray, csc_array, np.ndarray]:
-        """Return ``order``, the matrix in it with all of its diagonal, and where that is among the entries."""
+    def _with_diagonal(self, order: np.ndarray) -> tuple[csc_array, np.ndarray]:
+        """Return the matrix in an ``order (n,)`` with all of its diagonal, and where that is among the entries."""
         base = csc_array(csc_array(self.matrix + diags_array(np.ones(len(order))))[order][:, order])
         base.sort_indices()
         columns = np.repeat(np.arange(len(order)), np.diff(base.indptr))
         places = np.flatnonzero(base.indices == columns)
         base.data[places] = self.matrix.diagonal()[order]
-        return order, base, places
+        return base, places
 
 
 def _factor(matrix: SparseMatrix, ordered: bool) -> Any:

@@ -31,6 +31,8 @@ from kfmaps.matching.score import SCORE, PartEvidence, part_score, select_distin
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
+_LEAST_TRUST, _LEAST_TRUST_OF_TWO = 0.01, 1e-4
+"""Trust that samples without any keep in a registration; of two parts many have no place on the other."""
 _ROUNDS = (2, 5)  # how often candidates are refined, at least and at most
 
 
@@ -52,7 +54,7 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     """
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
-    trust = np.maximum(placement.placed.trust, 1e-4 if pair.both_partial else 0.01)
+    trust = np.maximum(placement.placed.trust, _LEAST_TRUST_OF_TWO if pair.both_partial else _LEAST_TRUST)
     found = register_part(pair, placement.scale, points, normals, trust, quick=True)
     evidence = replace(
         placement.evidence, deformation_energy=found.deformation_energy, gap=found.gap, flipped_area=found.flipped_area
