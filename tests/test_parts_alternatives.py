@@ -1,5 +1,6 @@
 """The best placing of a part against the best that leaves it: a half that was cut lengthwise has two."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -170,3 +171,18 @@ def test_landmarks_that_a_placement_contradicts_are_left_out(
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])
     assert found.scores[0] == (first if others is None else max(first, second))
     assert np.flatnonzero(named).tolist() == rejected
+
+
+def test_two_parts_are_judged_by_the_distances_in_their_overlap_alone(half, true, monkeypatch):
+    pair, found = replace(half[0], both_partial=True), true[0].registration
+    samples, whole = pair.part.samples, pair.whole
+    overlap = np.zeros(len(found.vertices))
+    overlap[samples[::2]] = 1.0
+    monkeypatch.setattr(contest, "find_overlap", lambda *_: SimpleNamespace(part=overlap))
+    places = whole.mesh.vertices[whole.samples]
+    nearest = np.linalg.norm(found.vertices[samples][:, None] - places, axis=2).argmin(axis=1)
+    fits, near = pair.agreement(found.scale, nearest)
+    wanted = fits[::2, ::2].sum() / near[::2, ::2].sum()
+    judged = make_candidate(true[0].placement, pair).evidence
+    assert contest._pair_consistency(found, pair) == pytest.approx(wanted)
+    assert judged.pair_consistency != true[0].evidence.pair_consistency == SCORE.part.usual_pair_consistency

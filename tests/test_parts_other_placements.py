@@ -97,3 +97,13 @@ def test_samples_without_a_place_are_not_trusted():
     trust = _agreeing(pair, SCALE, Assignment(match, np.full(2 * HALF, 0.5), 1.0))
     assert trust[~moved].min() > 0.6
     assert np.median(trust[moved]) == 0.0
+
+
+def test_landmarks_are_trusted_wherever_they_are():
+    _, part, whole = sheet(marks=2)
+    match = np.arange(2 * HALF)
+    match[:2] = OTHER[:2]
+    placed = Assignment(match, np.full(2 * HALF, 0.5), 1.0)
+    assert _agreeing(PartPair(part, whole, both_partial=True), SCALE, placed)[:2].tolist() == [1.0, 1.0]
+    unmarked = PartPair(replace(part, n_landmarks=0), whole, both_partial=True)
+    assert _agreeing(unmarked, SCALE, placed)[:2].max() < 0.5
