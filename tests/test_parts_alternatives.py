@@ -181,8 +181,8 @@ def test_two_parts_are_judged_by_the_distances_in_their_overlap_alone(half, true
     monkeypatch.setattr(contest, "find_overlap", lambda *_: SimpleNamespace(part=overlap))
     places = whole.mesh.vertices[whole.samples]
     nearest = np.linalg.norm(found.vertices[samples][:, None] - places, axis=2).argmin(axis=1)
-    fits, near = pair.agreement(found.scale, nearest)
+    fits, near = pair.pair_consistency(found.scale, nearest)
     wanted = fits[::2, ::2].sum() / near[::2, ::2].sum()
     judged = make_candidate(true[0].placement, pair).evidence
-    assert contest._pair_consistency(found, pair) == pytest.approx(wanted)
+    assert contest._overlap_consistency(found, pair) == pytest.approx(wanted)
     assert judged.pair_consistency != true[0].evidence.pair_consistency == SCORE.part.usual_pair_consistency

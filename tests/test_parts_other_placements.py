@@ -9,7 +9,7 @@ from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_placements
 from kfmaps.matching.partial.relaxation_labeling import Assignment, consistency, distance_bounds
 from kfmaps.matching.partial.samples import PartPair, PartSamples
-from kfmaps.matching.partial.scale_search import TRIALS, _agreeing, _shot_scale
+from kfmaps.matching.partial.scale_search import TRIALS, _consistent_trust, _shot_scale
 from kfmaps.matching.score import SCORE
 
 GUARDS = ("kfmaps.matching.partial",)
@@ -77,7 +77,7 @@ def test_distances_of_two_parts_agree_as_far_as_ways_around_both_boundaries_expl
     away = [rng.uniform(0, 0.3, 2 * HALF).astype(np.float32) for _ in range(2)]
     part, whole = replace(part, boundary_distance=away[0] / SCALE), replace(whole, boundary_distance=away[1])
     match = rng.permutation(2 * HALF)
-    fits, near = PartPair(part, whole, both_partial=True).agreement(SCALE, match)
+    fits, near = PartPair(part, whole, both_partial=True).pair_consistency(SCALE, match)
     for i, j in ((0, 1), (5, 50), (60, 61), (7, 90)):
         one, other = part.distances[i, j] * SCALE, whole.distances[match[i], match[j]]
         shortest = min(one, away[0][i] + away[0][j]), min(other, away[1][match[i]] + away[1][match[j]])
@@ -94,7 +94,7 @@ def test_samples_without_a_place_are_not_trusted():
     match = np.arange(2 * HALF)
     match[80:] = np.random.default_rng(0).permutation(40) + 80
     moved = match != np.arange(2 * HALF)
-    trust = _agreeing(pair, SCALE, Assignment(match, np.full(2 * HALF, 0.5), 1.0))
+    trust = _consistent_trust(pair, SCALE, Assignment(match, np.full(2 * HALF, 0.5), 1.0))
     assert trust[~moved].min() > 0.6
     assert np.median(trust[moved]) == 0.0
 
@@ -104,6 +104,6 @@ def test_landmarks_are_trusted_wherever_they_are():
     match = np.arange(2 * HALF)
     match[:2] = OTHER[:2]
     placed = Assignment(match, np.full(2 * HALF, 0.5), 1.0)
-    assert _agreeing(PartPair(part, whole, both_partial=True), SCALE, placed)[:2].tolist() == [1.0, 1.0]
+    assert _consistent_trust(PartPair(part, whole, both_partial=True), SCALE, placed)[:2].tolist() == [1.0, 1.0]
     unmarked = PartPair(replace(part, n_landmarks=0), whole, both_partial=True)
-    assert _agreeing(unmarked, SCALE, placed)[:2].max() < 0.5
+    assert _consistent_trust(unmarked, SCALE, placed)[:2].max() < 0.5

@@ -60,15 +60,15 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
         placement.evidence, deformation_energy=found.deformation_energy, gap=found.gap, flipped_area=found.flipped_area
     )
     if pair.both_partial:
-        evidence = replace(evidence, pair_consistency=_pair_consistency(found, pair))
+        evidence = replace(evidence, pair_consistency=_overlap_consistency(found, pair))
     return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
 
 
-def _pair_consistency(found: PartRegistration, pair: PartPair) -> float:
+def _overlap_consistency(found: PartRegistration, pair: PartPair) -> float:
     """Return how well distances on two parts agree, between samples of the overlap, from 0 to 1."""
     samples, whole = pair.part.samples, pair.whole
     match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(found.vertices[samples])[1])
-    fits, near = pair.agreement(found.scale, match)
+    fits, near = pair.pair_consistency(found.scale, match)
     on = find_overlap(found, whole).part[samples]
     return float(on @ fits @ on / max(on @ near @ on, 1e-12))
 

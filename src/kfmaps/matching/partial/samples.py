@@ -71,7 +71,7 @@ class PartPair:
         """Return the bounds of the part's distances on the whole at a ``scale``."""
         return distance_bounds(self.part.distances, self.part.boundary_distance, scale)
 
-    def agreement(self, scale: float, match: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def pair_consistency(self, scale: float, match: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how well distances of two parts agree, and which pairs of samples are near enough to count.
 
         Either distance may be too long where it may lead around a boundary.

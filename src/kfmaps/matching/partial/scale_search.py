@@ -25,8 +25,8 @@ _SHOT_STEP = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, wh
 LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further ones where what is registered is no part, but overlaps with one."""
 
-_MIN_AGREEMENT, _ROUNDS = 0.8, 6
-"""Mean agreement with the others, over that of the best tenth, below which a sample of two parts is not trusted, and
+_MIN_CONSISTENCY, _ROUNDS = 0.8, 6
+"""Mean consistency with the others, over that of the best tenth, below which a sample of two parts is not trusted, and
 rounds to find that."""
 
 
@@ -88,22 +88,22 @@ def place_all(pair: PartPair, one: Placement) -> Placement:
     n_landmarks = pair.part.n_landmarks
     placed = reassign(pair.bounds(one.scale), pair.whole.distances, one.similarity, one.placed, n_landmarks)
     if pair.both_partial:
-        placed = replace(placed, trust=placed.trust * _agreeing(pair, one.scale, placed))
+        placed = replace(placed, trust=placed.trust * _consistent_trust(pair, one.scale, placed))
     return replace(one, placed=placed)
 
 
-def _agreeing(pair: PartPair, scale: float, placed: Assignment) -> np.ndarray:
+def _consistent_trust(pair: PartPair, scale: float, placed: Assignment) -> np.ndarray:
     """Return how far each sample of a part agrees with those that agree with each other, (q,), from 0 to 1.
 
     What has no place on the other part does not. A power iteration as of Leordeanu and Hebert (2005), with means for
     sums, so that samples with few neighbours count as much.
     """
-    fits, near = pair.agreement(scale, placed.match)
+    fits, near = pair.pair_consistency(scale, placed.match)
     trust = np.minimum(placed.trust, 1.0)
     for _ in range(_ROUNDS):
         mean = fits @ trust / np.maximum(near @ trust, 1e-12)
         best = max(float(np.quantile(mean, 0.9)), 1e-12)
-        trust = np.clip((mean / best - _MIN_AGREEMENT) / (1 - _MIN_AGREEMENT), 0.0, 1.0)
+        trust = np.clip((mean / best - _MIN_CONSISTENCY) / (1 - _MIN_CONSISTENCY), 0.0, 1.0)
     trust[: pair.part.n_landmarks] = 1.0
     return trust
 
