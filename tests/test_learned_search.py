@@ -88,7 +88,7 @@ def test_candidates_of_the_metric(creature):
     assert ground.descriptor_cost is not None
     assert on.whole.descriptor_cost is not None
     assert ground.descriptor_cost.shape == on.whole.descriptor_cost.shape
-    found = learned_candidates(source, target, config, on, 0, 0)
+    found = learned_candidates(source, target, config, on, 0)
     assert found
     assert all(c.name.startswith("learned") and c.uses_descriptors for c in found)
     best = max(found, key=lambda c: c.score)
@@ -97,7 +97,7 @@ def test_candidates_of_the_metric(creature):
     wanted = truth[on.whole.target.samples.vertices]
     images = source.mesh.vertices[on.whole.source.samples.vertices[best.points]]
     assert np.linalg.norm(images - source.mesh.vertices[wanted], axis=1).mean() < 0.15
-    assert learned_candidates(source, target, taught([1.0, 2.0]), on, 0, 0) == []  # of other descriptors
+    assert learned_candidates(source, target, taught([1.0, 2.0]), on, 0) == []  # of other descriptors
 
 
 def candidate(name, score, place, on):

@@ -286,9 +286,9 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
         return score_maps([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
 
     monkeypatch.setattr(choose, "candidates", few)
-    found = without_landmarks(source, target, kfmaps.Config(), on, 3, drawn=4)
+    found = without_landmarks(source, target, kfmaps.Config(), on, 3, descriptors=None)
     alone, how = asked[0]
-    assert how == {"drawn": 4}
+    assert how == {"descriptors": None}
     assert alone.few.landmark_evidence is None
     assert alone.few.landmark_cost is None
     assert alone.whole.landmark_evidence is None

@@ -15,7 +15,7 @@ from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from kfmaps.geometry.sampling import spectral_samples
-from kfmaps.matching import candidates, initial_maps, search
+from kfmaps.matching import candidates, search
 from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
 from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import fit
@@ -102,7 +102,7 @@ def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
         asked.append(arguments[-1])
         return sample_pair_for_fit(*arguments)
 
-    monkeypatch.setattr(initial_maps, "sample_pair_for_fit", spy)
+    monkeypatch.setattr(candidates, "sample_pair_for_fit", spy)
     monkeypatch.setattr(candidates, "SCORE", replace(SCORE, early_exit_score=np.inf))
     for seed in (7, 0):
         search_map(shape, other, SMALL, rng=seed)

@@ -17,8 +17,10 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_of_map
+from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.initial_maps import (
+    FIT_POINTS,
     STARTS,
     WEIGHTS,
     KernelWeights,
@@ -58,20 +60,19 @@ def candidates(
     target: Shape,
     config: Config,
     samples: TwoLevelSamples,
-    seed: int,
+    rng: int,
     *,
     landmarks: np.ndarray | None = None,
     descriptors: tuple[Any, Any] | None = None,
-    drawn: int = 0,
     report: Callable[[float], None] = lambda _done: None,
 ) -> list[Candidate]:
     """Return refined candidates, in no order.
 
-    ``landmarks (l, 2)`` take part in the fits; elsewhere it is the samples that know of them. ``drawn`` is the seed of
-    the points that the fits are made from, ``seed`` that of everything else.
+    ``landmarks (l, 2)`` take part in the fits; elsewhere it is the samples that know of them. ``rng`` is the seed of
+    the points that the fits are made from; everything else is drawn with :func:`drawn_seed`.
     """
     assert config.search is not None
-    few, threads = samples.few, config.threads
+    few, threads, seed = samples.few, config.threads, drawn_seed(rng)
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     signs, weights = min(config.search.n_sign_functions, functions - 1), distinct_weights(WEIGHTS, few)
@@ -81,9 +82,8 @@ def candidates(
     easy = len(pairs) == 0 and descriptors is None and early_exit(found)
     if not easy:
         found += refine_coarse(sign_inits(signs, few, weights[_QUICK:]), few, functions, threads)
-        operators = samples.whole.source.orientation, samples.whole.target.orientation
-        starts = kernel_inits(source, target, config, few, operators, pairs, descriptors, seed, drawn)
-        starts += extremity_inits(functions, few)
+        points = sample_pair_for_fit(source, target, FIT_POINTS, pairs, descriptors, rng)
+        starts = kernel_inits(points, config, samples, seed) + extremity_inits(functions, few)
         report(0.5)
         found += refine_coarse(starts, few, functions, threads)
     report(0.7)
@@ -99,6 +99,11 @@ def candidates(
     refined = refine_fine(chosen, few, samples.whole, functions, threads)
     report(1.0)
     return refined
+
+
+def drawn_seed(rng: int) -> int:
+    """Return the seed of a search's samples and of all that is drawn after them."""
+    return int(np.random.default_rng(rng).integers(2**31))
 
 
 def early_exit(found: list[Candidate]) -> bool:

@@ -16,7 +16,7 @@ from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.landmark_evidence import build_guidance
-from kfmaps.matching.postprocess import refine_map
+from kfmaps.matching.postprocess import refine_map, reseed
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
@@ -80,7 +80,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         back = found.functional_map.T if found.fit is None or found.fit.back is None else found.fit.back
     adapted = replace(
         config,
-        refinement=adapt_refinement(config.refinement, found),
+        refinement=reseed(adapt_refinement(config.refinement, found), task.seed),
         registration=adapt_registration(config.registration, found),
     )
     refined = refine_map(
@@ -90,7 +90,6 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         raw=found.initialization == ONE_FIT,
         led=guidance,
         back=back,
-        rng=task.seed,
         progress=task.clock.report,
     )
     task.clock.seconds.update(refined.seconds)

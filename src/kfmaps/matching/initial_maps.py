@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Any
 
 import numpy as np
 from scipy.linalg import expm
@@ -28,14 +27,13 @@ from kfmaps.matching.assemble import (
     scale_operators,
 )
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
-from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors, sample_pair_for_fit
+from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors
 from kfmaps.matching.fit import Fit, fit_of_problem
 from kfmaps.matching.robust_weights import robust_weights
-from kfmaps.matching.sample_pair import SamplePair
+from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
 from kfmaps.matching.score import Candidate
 from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import minimize_problem
-from kfmaps.shape import Shape
 
 KernelWeights = tuple[float, ...]
 """Of SHOT, of landmarks and of extremities."""
@@ -178,26 +176,16 @@ def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) ->
     return C[:k, :k] @ (rotation * signs[None, :])
 
 
-def kernel_inits(
-    source: Shape,
-    target: Shape,
-    config: Config,
-    pair: SamplePair,
-    operators: tuple[np.ndarray | None, np.ndarray | None],
-    landmarks: np.ndarray,
-    descriptors: tuple[Any, Any] | None,
-    seed: int,
-    sampling_seed: int,
-) -> list[Start]:
+def kernel_inits(points: SampledPair, config: Config, samples: TwoLevelSamples, seed: int) -> list[Start]:
     """Return small kernel fits, each to be refined from several sizes and with several weights of the descriptors."""
-    fits = plan_fits(config, bool(len(source.mesh.faces) and len(target.mesh.faces)))
-    points = sample_pair_for_fit(source, target, FIT_POINTS, landmarks, descriptors, sampling_seed)
+    operators = samples.whole.source.orientation, samples.whole.target.orientation
+    fits = plan_fits(config, surfaces=all(one is not None for one in operators))
 
     def starts(name: str) -> list[Start]:
         members = [fit for fit in fits if fit.descriptor_set == name]
         made = fit_descriptor_set(members, points, config, operators, seed)
         named = [(spec.name, fit.functional_map, fit) for spec, fit in zip(members, made, strict=True)]
-        return repeated_starts(named, FIT_WEIGHTS, pair)
+        return repeated_starts(named, FIT_WEIGHTS, samples.few)
 
     names = list(dict.fromkeys(fit.descriptor_set for fit in fits))
     return [start for several in parallel(starts, names, config.threads) for start in several]

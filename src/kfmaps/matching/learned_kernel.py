@@ -18,7 +18,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.kernels.kernels import KernelLike
 from kfmaps.kernels.transformed import Metric, Network, descriptor_width, n_kernel_landmarks
-from kfmaps.matching.candidates import by_score, distinct_maps, refine_coarse, refine_finely, score_maps
+from kfmaps.matching.candidates import by_score, distinct_maps, drawn_seed, refine_coarse, refine_finely, score_maps
 from kfmaps.matching.features import pair_descriptors, sample_pair_for_fit
 from kfmaps.matching.initial_maps import FIT_POINTS, LEARNED, STARTS, FitSpec, Start, fit_descriptor_set, sign_inits
 from kfmaps.matching.quality import ShapeSamples
@@ -52,12 +52,12 @@ def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool
 
 
 def learned_candidates(
-    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, seed: int, drawn: int
+    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, rng: int
 ) -> list[Candidate]:
     """Return candidates made with the kernel of ``config``, refined and judged as all others are.
 
-    ``seed`` and ``drawn`` belong to the fits and to the choice of their samples. Where the kernel was learned for other
-    descriptors there are none.
+    ``rng`` as in :func:`kfmaps.matching.candidates.candidates`. Where the kernel was learned for other descriptors
+    there are none.
     """
     assert config.search is not None
     rows = _transformed_descriptors(source, target, config, samples.whole.source, samples.whole.target)
@@ -69,10 +69,10 @@ def learned_candidates(
         s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == _WEIGHTS[0]
     ]
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
+    points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, rng)
     operators = samples.whole.source.orientation, samples.whole.target.orientation
     fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), 0.1) for k in (20, 50)]
-    made = fit_descriptor_set(fits, points, config, operators, seed)
+    made = fit_descriptor_set(fits, points, config, operators, drawn_seed(rng))
     starts += [
         Start(f"{spec.name}, from {start}", fit.functional_map, start, _WEIGHTS, True, fit=fit)
         for spec, fit in zip(fits, made, strict=True)

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import like, to_numpy
+from kfmaps._arrays import Array, like, to_numpy
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.geometry.basis import Basis
+from kfmaps.fmap.refine import Refined, Refinement
 from kfmaps.shape import Shape
 
 
@@ -33,88 +33,55 @@ class PostprocessedMap:
 
 
 def refine_map(
-    C: Any,
+    C: Array,
     source: Shape,
     target: Shape,
     config: Config,
     *,
     raw: bool = True,
     led: DescriptorGuidance | None = None,
-    back: Any = None,
-    rng: int = 0,
+    back: Array | None = None,
     progress: Progress | None = None,
 ) -> PostprocessedMap:
     """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
     ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
-    or, without it, SHOT, where both shapes have it. ``rng`` is added to the seed of ZoomOut's samples. With a
-    map ``back (k_s, k_t)`` both are finished: ZoomOut refines them together
-    (:meth:`kfmaps.fmap.zoomout.ZoomOut.bidirectional`), ICP
-    each by itself.
+    or, without it, SHOT, where both shapes have it. With a map ``back (k_s, k_t)`` both are finished: ZoomOut refines
+    them together (:meth:`kfmaps.fmap.zoomout.ZoomOut.bidirectional`), ICP each by itself.
     """
     refine: Any = config.refinement
-    if hasattr(refine, "seed"):
-        refine = replace(refine, seed=refine.seed + rng)
-        config = replace(config, refinement=refine)
     clock = StageTimer(progress)
     bases = (source.basis, target.basis)
     if config.device != "cpu":
         bases = (bases[0].to(config.device), bases[1].to(config.device))
-    C, points = like(C, bases[0].functions), None
+    C, points, other = like(C, bases[0].functions), None, None
+    back = None if back is None else like(back, C)
     with one_blas_thread():
-        if raw or config.refinement is None:
+        if raw or refine is None:
             with clock("point map"):
                 points = to_points(C, *bases, threads=config.threads)
-        if config.refinement is None:
+        if refine is None:
             assert points is not None
-            found = PostprocessedMap(points, to_numpy(C), points, clock.seconds)
-            if back is None:
-                return found
-            back = like(back, bases[0].functions)
-            return replace(
-                found,
-                source_to_target=to_points(back, bases[1], bases[0], threads=config.threads),
-                functional_map_back=to_numpy(back),
-            )
-        if back is not None:
-            return _finished_both(C, like(back, C), (source, target), bases, config, points, clock, led)
-        if getattr(refine, "descriptor_weight", 0):
-            refine = partial(refine, guide=led or descriptor_guidance(source.shot, target.shot))
-        with clock("refinement"):
-            refined = refine(
-                C, *bases, progress=lambda done: clock.report("refinement", done), threads=config.threads, points=points
-            )
-    return PostprocessedMap(refined.target_to_source, to_numpy(refined.functional_map), points, clock.seconds)
-
-
-def _finished_both(
-    C: Any,
-    back: Any,
-    shapes: tuple[Shape, Shape],
-    bases: tuple[Basis, Basis],
-    config: Config,
-    points: np.ndarray | None,
-    clock: StageTimer,
-    led: DescriptorGuidance | None,
-) -> PostprocessedMap:
-    """Both maps refined; see :func:`refine_map`."""
-    refine: Any = config.refinement
-
-    def told(done: float) -> None:
-        clock.report("refinement", done)
-
-    with clock("refinement"):
-        if hasattr(refine, "bidirectional"):
-            guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.descriptor_weight else None
-            forth, other = refine.bidirectional(C, back, *bases, told, config.threads, guiding)
+            found = Refined(C, points, ())
+            if back is not None:
+                other = Refined(back, to_points(back, bases[1], bases[0], threads=config.threads), ())
         else:
-            forth = refine(C, *bases, progress=told, threads=config.threads, points=points)
-            other = refine(back, bases[1], bases[0], threads=config.threads)
-    return PostprocessedMap(
-        forth.target_to_source,
-        to_numpy(forth.functional_map),
-        points,
-        clock.seconds,
-        other.target_to_source,
-        to_numpy(other.functional_map),
-    )
+            options: dict[str, Any] = {"progress": partial(clock.report, "refinement"), "threads": config.threads}
+            weight = getattr(refine, "descriptor_weight", 0)
+            guide = {"guide": led or descriptor_guidance(source.shot, target.shot)} if weight else {}
+            with clock("refinement"):
+                if back is not None and hasattr(refine, "bidirectional"):
+                    found, other = refine.bidirectional(C, back, *bases, **options, **guide)
+                else:
+                    found = refine(C, *bases, points=points, **options, **guide)
+                    if back is not None:
+                        swapped = {name: one and one.swapped() for name, one in guide.items()}
+                        other = refine(back, bases[1], bases[0], threads=config.threads, **swapped)
+    ends = (None, None) if other is None else (other.target_to_source, to_numpy(other.functional_map))
+    return PostprocessedMap(found.target_to_source, to_numpy(found.functional_map), points, clock.seconds, *ends)
+
+
+def reseed(refinement: Refinement | None, seed: int) -> Refinement | None:
+    """Return the ``refinement`` with ``seed`` added to that of its samples, where it has one."""
+    refine: Any = refinement
+    return replace(refine, seed=refine.seed + seed) if hasattr(refine, "seed") else refine

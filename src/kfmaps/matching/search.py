@@ -30,6 +30,7 @@ from kfmaps.matching.candidates import (
     candidates,
     compose_with_symmetries,
     distinct_maps,
+    drawn_seed,
     map_distance,
     rerefine,
     rescore,
@@ -144,17 +145,16 @@ def search_map(
         raise refuse("search", "settings of a search", "None", "use Config(), which has them")
     learned = learned_kernel_applies(config, source, target)
     given = seed_of(rng)
-    seed = _drawn(given)
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
-    everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
+    everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, given, probes), pairs)
     report("candidates", 0.1)
     plain, begin, part = drop_learned(config), *((0.5, 0.4) if len(pairs) else (0.1, 0.8))
-    more = {"descriptors": user_descriptors(source, target, config.descriptors, descriptors), "drawn": given}
+    own = user_descriptors(source, target, config.descriptors, descriptors)
     alone: list[Candidate] = []
     if len(pairs):
         second = lambda done: report("candidates", 0.1 + 0.4 * done)  # noqa: E731
-        alone = without_landmarks(source, target, plain, everything, seed, report=second, **more)
+        alone = without_landmarks(source, target, plain, everything, given, descriptors=own, report=second)
 
     none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
     evidence = everything.whole.landmark_evidence
@@ -165,7 +165,8 @@ def search_map(
         first = lambda done: report("candidates", begin + part * done)  # noqa: E731
         found: list[Candidate] = []
         if not len(pairs) or not wrong.all():
-            found = candidates(source, target, plain, kept, seed, landmarks=pairs[~wrong], report=first, **more)
+            left = pairs[~wrong]
+            found = candidates(source, target, plain, kept, given, landmarks=left, descriptors=own, report=first)
         free = rescore(alone, kept.whole, config.threads) if alone else []
         return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
@@ -176,7 +177,7 @@ def search_map(
         state = replace(state, doubts=(*state.doubts, *doubts))
     ranked, samples, retries = state.ranked, state.samples.whole, ()
     if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
-        others = learned_candidates(source, target, config, state.samples, seed, given)
+        others = learned_candidates(source, target, config, state.samples, given)
         ranked = merge_alternatives(ranked, others, samples, state.copies, config.threads)
     if _are_surfaces(samples):
         state = _compare_exchanged(replace(state, ranked=ranked))
@@ -204,16 +205,15 @@ def _search_samples(
     target: Shape,
     config: Config,
     pairs: np.ndarray,
-    seed: int,
+    given: int,
     probes: tuple[ShapeSamples, ShapeSamples] | None,
 ) -> tuple[ShapeSamples, ShapeSamples]:
     """Return the samples of both shapes: ``probes`` where they serve; without extremities where nobody wants them."""
     if probes is None or len(pairs):
         sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
-        made = parallel(
-            lambda side: sample_for_scoring(side[0], rng=seed, threads=1, landmarks=side[1]), sides, config.threads
-        )
-        probes = made[0], made[1]
+        seed = drawn_seed(given)
+        a, b = parallel(lambda s: sample_for_scoring(s[0], rng=seed, threads=1, landmarks=s[1]), sides, config.threads)
+        probes = a, b
     assert config.search is not None
     if config.search.match_extremities:
         return probes
@@ -424,13 +424,13 @@ def backed_by(best: Candidate, samples: SamplePair, threads: int | None = None) 
 
 
 def without_landmarks(
-    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, seed: int, **more: Any
+    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, rng: int, **more: Any
 ) -> list[Candidate]:
     """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
     bare = TwoLevelSamples(
         *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.few, samples.whole))
     )
-    found = candidates(source, target, config, bare, seed, **more)
+    found = candidates(source, target, config, bare, rng, **more)
     return rescore(found, samples.whole, config.threads)
 
 
@@ -453,13 +453,8 @@ def alternative_maps(
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
     """What a search with ``rng`` needs to know of one shape, whatever it is matched with."""
-    made = sample_for_scoring(clean_shape(shape)[0], rng=_drawn(seed_of(rng)), threads=1)
+    made = sample_for_scoring(clean_shape(shape)[0], rng=drawn_seed(seed_of(rng)), threads=1)
     return with_self_maps(made, subsample(made, FEW))
-
-
-def _drawn(seed: int) -> int:
-    """The seed of the samples and of all that is drawn after them."""
-    return int(np.random.default_rng(seed).integers(2**31))
 
 
 def near_isometric(found: SearchResult) -> bool:

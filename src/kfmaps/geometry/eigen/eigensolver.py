@@ -61,7 +61,6 @@ def smallest_eigenpairs(
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     method: str = "auto",
-    ordering: str = "auto",
     progress: Callable[[float], None] | None = None,
 ) -> Eigenpairs:
     """Return the ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
@@ -93,8 +92,6 @@ def smallest_eigenpairs(
     method : {"auto", "block", "dense"}
         ``"block"``: own block Lanczos with full reorthogonalisation. ``"dense"``: the whole spectrum, for a few hundred
         rows. ``"auto"``: dense where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
-    ordering : {"auto", "metis", "mmd"}
-        Ordering of the factorisation; METIS is faster on large meshes and comes with ``kfmaps[fast]``.
     progress : callable, optional
         Told about how much is done, from 0 to 1, as the blocks of the basis grow.
 
@@ -137,7 +134,7 @@ def smallest_eigenpairs(
         each = map
         if (workers := threads or available_cores()) > 1 and n >= THREADED:
             each = stack.enter_context(ThreadPoolExecutor(workers)).map
-        order = fill_order(matrix, ordering)
+        order = fill_order(matrix)
         if order is not None:
             matrix, floored = matrix[order][:, order], floored[order]
         if method == "block" and tolerance >= LOOSE:

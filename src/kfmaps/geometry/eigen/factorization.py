@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import splu
 
-from kfmaps._arrays import MissingDependency, NotConverged, refuse
+from kfmaps._arrays import NotConverged
 
 Solve = Callable[[np.ndarray], np.ndarray]
 Map = Callable[..., Iterable[Any]]
@@ -24,21 +24,14 @@ together more than they save. They are split so with one thread too, at no cost:
 on how many there are."""
 
 
-def fill_order(matrix: SparseMatrix, ordering: str = "auto") -> np.ndarray | None:
+def fill_order(matrix: SparseMatrix) -> np.ndarray | None:
     """Return an order of the rows, (n,), in which a factor stays small; ``None`` leaves it to SuperLU.
 
-    ``matrix (n, n)``: symmetric in its pattern. ``ordering``: ``"metis"``: nested dissection, a smaller factor and
-    faster solves from some ten thousand rows; needs ``kfmaps[fast]``. ``"mmd"``: SuperLU's minimum degree. ``"auto"``:
-    METIS where it is installed.
+    ``matrix (n, n)``: symmetric in its pattern. METIS's nested dissection gives a smaller factor and faster solves from
+    some ten thousand rows; it comes with ``kfmaps[fast]``. Without it SuperLU takes its minimum degree.
     """
-    if ordering not in ("auto", "metis", "mmd"):
-        raise refuse("ordering", "'auto', 'metis' or 'mmd'", repr(ordering), "choose one of them")
-    if ordering == "mmd":
-        return None
     if find_spec("pymetis") is None:
-        if ordering == "auto":
-            return None
-        raise MissingDependency("ordering 'metis' needs pymetis. Install it with: pip install 'kfmaps[fast]'.")
+        return None
     import pymetis
 
     graph: Any = csr_array(matrix, copy=True)
