@@ -866,7 +866,7 @@ MUTANTS = tuple(
         ("margins.append(0.0)", "margins.append(9.0)", "test_automatic -k without_orientation"),
         ("inside = value < 0", "inside = value > 0", "test_cloud_surface -k faces_of"),
         ("+ height * axes[:, :, 0]", "- height * axes[:, :, 0]", "test_cloud_surface -k projected"),
-        ("count = int(np.clip(_NEIGHBOURS_PER_NOISE", "count = int(np.clip(0", "test_cloud_surface -k projected"),
+        ("count = int(np.clip(neighbours_per_noise", "count = int(np.clip(0", "test_cloud_surface -k projected"),
         ("-np.exp(-_SHARPNESS * angle)", "np.exp(-_SHARPNESS * angle)", "test_cloud_surface -k faces_of"),
         (
             "share = float(areas[covered].sum() / areas.sum())",

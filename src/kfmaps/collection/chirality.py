@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.connectivity import component_labels
 
-_MAX_FLIPS = 100  # signs that are changed at most
-
 
 def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: ArrayLike) -> np.ndarray:
     """Return 1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
@@ -37,7 +35,7 @@ def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool],
     for own in (np.flatnonzero(part == number) for number in np.unique(part)):
         leading = np.linalg.eigh(signed[np.ix_(own, own)])[1][:, -1]
         signs[own], first[own] = np.where(leading < -1e-12, -1, 1), own[0]
-    for _ in range(_MAX_FLIPS):
+    for _ in range(100):  # signs that are changed at most
         gain = -signs * (signed @ signs)
         worst = int(gain.argmax()) if count else 0
         if count == 0 or gain[worst] <= 1e-9 * (1.0 + np.abs(signed).max()):

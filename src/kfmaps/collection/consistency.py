@@ -24,8 +24,6 @@ from kfmaps.matching.result import Match
 from kfmaps.matching.score import probability_word
 from kfmaps.shape import Shape
 
-_N_LATENT = 15  # latent functions of a limit shape: the higher ones are truncation more than shape
-
 StoredMap = tuple[np.ndarray, bool]
 """A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""
 
@@ -78,7 +76,8 @@ def synchronize_store(store: MapStore) -> Consistency:
     edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, store.scores, strict=True)]
     k = repaired.sync.latent.shape[1]
     values = np.stack([store.shape(i).basis.eigenvalues[:k] for i in range(len(store.names))])
-    return Consistency(repaired, component_limit_shapes(repaired.sync, edges, values, _N_LATENT), values)
+    n_latent = 15  # latent functions of a limit shape: the higher ones are truncation more than shape
+    return Consistency(repaired, component_limit_shapes(repaired.sync, edges, values, n_latent), values)
 
 
 def stored_candidates(file: Match, reversed: bool | None = None) -> list[StoredMap]:

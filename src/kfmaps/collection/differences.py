@@ -21,9 +21,6 @@ from kfmaps.collection.pair_graph import signature_distances
 from kfmaps.collection.synchronization import Edge, SyncResult
 from kfmaps.geometry.basis import Basis
 
-_RIGHT = 0.5  # probability from which a candidate takes part in the common basis
-_N_ITERATIONS = 30  # iterations of the latent maps
-
 
 @dataclass(frozen=True, eq=False)
 class LimitShape:
@@ -84,7 +81,7 @@ def limit_shape(
         # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
         around[source].append((target, np.linalg.pinv(C[:k, :k], rcond=0.2)))
     Y = _normalised(latent)
-    for _ in range(_N_ITERATIONS):
+    for _ in range(30):  # iterations of the latent maps
         means = [np.mean([C @ Y[u] for u, C in near], axis=0) if near else Y[v] for v, near in enumerate(around)]
         Y = _normalised((Y + np.stack(means)) / 2)
     areas = (np.swapaxes(Y, 1, 2) @ Y).mean(axis=0)
@@ -123,10 +120,11 @@ def component_limit_shapes(
     -------
     tuple of ComponentLimitShape
     """
+    right_from = 0.5  # probability from which a candidate takes part in the common basis
     maps = [
         (edge.source, edge.target, edge.candidates[best].map)
         for edge, chances in zip(edges, sync.probabilities, strict=True)
-        if (best := int(chances[:-1].argmax())) < len(edge.candidates) and chances[best] >= _RIGHT
+        if (best := int(chances[:-1].argmax())) < len(edge.candidates) and chances[best] >= right_from
     ]
     numbers, counts = np.unique(sync.component, return_counts=True)
     found = []

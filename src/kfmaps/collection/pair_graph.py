@@ -14,13 +14,9 @@ from scipy.sparse.csgraph import minimum_spanning_tree
 from scipy.spatial.distance import pdist, squareform
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
-from kfmaps.descriptors.spectral import heat_signature
+from kfmaps.descriptors.spectral import log_heat_signature
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.connectivity import component_labels
-
-_N_EIGENVALUES = 30  # eigenvalues that shapes are compared by
-_TIMES = np.geomspace(0.005, 0.3, 8)  # diffusion times at unit area whose heat kernel signatures are compared
-_QUANTILES = np.linspace(0.05, 0.95, 7)
 
 Pairs = tuple[tuple[int, int], ...]
 
@@ -40,12 +36,13 @@ def signature(basis: Basis) -> np.ndarray:
     -------
     (d,) float64
     """
-    values = to_numpy(basis.eigenvalues)[1 : _N_EIGENVALUES + 1]
+    count = 30  # eigenvalues that shapes are compared by
+    values = to_numpy(basis.eigenvalues)[1 : count + 1]
     # By Weyl's law the i-th is about 4 π i at unit area.
     growth = np.log(np.maximum(values, 1e-3) / (4 * np.pi * np.arange(1, len(values) + 1)))
-    growth = np.concatenate([growth, np.full(_N_EIGENVALUES - len(growth), growth[-1] if len(growth) else 0.0)])
-    heat = np.log(np.maximum(to_numpy(heat_signature(basis, _TIMES)), 1e-12))
-    return np.concatenate([growth, np.quantile(heat, _QUANTILES, axis=0).ravel()])
+    growth = np.concatenate([growth, np.full(count - len(growth), growth[-1] if len(growth) else 0.0)])
+    heat = np.quantile(log_heat_signature(basis), np.linspace(0.05, 0.95, 7), axis=0)
+    return np.concatenate([growth, heat.ravel()])
 
 
 def signature_distances(signatures: np.ndarray) -> np.ndarray:

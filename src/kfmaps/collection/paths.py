@@ -13,9 +13,6 @@ from kfmaps._arrays import refuse, to_numpy
 from kfmaps.fmap.convert import check_point_map, nearest
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
-_EMBEDDING = 60  # functions by which the nearest images are found where a map is inverted
-_MIN_PROBABILITY = 1e-6  # probability below which a pair is on no path
-
 Adjacency = Sequence[Sequence[tuple[int, int]]]
 """Of each shape its neighbours, with the number of the edge between."""
 
@@ -74,6 +71,7 @@ def _dijkstra(
     """Search from ``source``, until ``target`` is found (Dijkstra)."""
     queue: list[tuple[float, int, tuple[int, ...], tuple[int, ...]]] = [(0.0, 0, (source,), ())]
     found: dict[int, MapPath] = {}
+    min_probability = 1e-6  # probability below which a pair is on no path
     while queue:
         cost, length, shapes, edges = heappop(queue)
         here = shapes[-1]
@@ -83,7 +81,7 @@ def _dijkstra(
         if here == target:
             break
         for other, number in around[here]:
-            if other not in found and number != without and probabilities[number] > _MIN_PROBABILITY:
+            if other not in found and number != without and probabilities[number] > min_probability:
                 # Rounded, so that what is equal but for rounding is equal; each step costs a little by itself.
                 further = round(cost - math.log(min(probabilities[number], 1.0)) + 1e-6, 9)
                 heappush(queue, (further, length + 1, (*shapes, other), (*edges, number)))
@@ -111,7 +109,7 @@ def invert_map(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndar
     one-to-one map it is the inverse.
     """
     points = check_point_map(target_to_source, len(source.functions), n_t)
-    k = min(_EMBEDDING, len(source.eigenvalues))
+    k = min(60, len(source.eigenvalues))  # functions by which the nearest images are found where a map is inverted
     values = to_numpy(source.eigenvalues)[1:k]
     places = to_numpy(source.functions)[:, 1:k] / np.sqrt(np.maximum(values, max(eigenvalue_tolerance(source), 1e-9)))
     return nearest(places, places[points], threads=1)

@@ -11,8 +11,6 @@ from kfmaps._arrays import check, refuse
 from kfmaps.geometry.similarity import similarity
 
 MAX_ROUNDS = 100
-TOLERANCE = 1e-12
-"""Relative change of the consensus at which the rounds end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +39,13 @@ def generalized_procrustes(points: np.ndarray) -> Procrustes:
     first = int(np.argmax(there.sum(axis=1)))
     consensus = _unit(np.where(there[first][:, None], points[first], np.nanmean(points[first], axis=0)))
     filled, aligned = points.copy(), points
+    tolerance = 1e-12  # relative change of the consensus at which the rounds end
     for _ in range(MAX_ROUNDS):
         aligned = np.stack([_aligned(one, seen, consensus) for one, seen in zip(points, there, strict=True)])
         new = _unit(aligned.mean(axis=0))
         change = np.abs(new - consensus).max()
         consensus = new
-        if change < TOLERANCE:
+        if change < tolerance:
             break
     for i, seen in enumerate(there):  # missing landmarks in the specimen's own frame, for its size
         if not seen.all():

@@ -21,12 +21,6 @@ from kfmaps.collection.synchronization import N_FUNCTIONS, OUTLIER_FACTOR, Edge,
 from kfmaps.matching.score import SCORE
 
 _DOUBT = 0.5  # probability of the map in use below which a composition is sought
-_WRONG = 0.1  # probability of the map in use below which it is replaced
-_RIGHT = 0.5  # least probability of the map that replaces it
-_MIN_PATH_PROBABILITY = 0.3  # least probability that all maps of a path are right
-_MIN_GAIN = 0.3  # how much better a composition must score to replace a map that is right on the whole
-_N_TWO_STEP = 3  # paths of two steps by the maps in use that are tried for a doubted pair
-_N_ROUNDS = 3  # rounds of compositions: a replaced map may open a path for others
 
 
 @dataclass(frozen=True)
@@ -138,7 +132,7 @@ class _Repair:
 
     def run(self) -> RepairResult:
         tried: set[tuple[int, tuple[CycleStep, ...]]] = set()
-        for _ in range(_N_ROUNDS):
+        for _ in range(3):  # rounds of compositions: a replaced map may open a path for others
             doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < _DOUBT]
             asked = [(i, path) for i, path in self._paths_around(doubted) if (i, path.steps) not in tried]
             if not asked:
@@ -160,10 +154,11 @@ class _Repair:
         each = zip(self.sync.probabilities, best, self.given, strict=True)
         chances = [float(p[b]) if b < given else 0.0 for p, b, given in each]
         found: dict[tuple[int, tuple[CycleStep, ...]], CyclePath] = {}
+        min_path_probability = 0.3  # least probability that all maps of a path are right
         for i in edges:
             likely = best_path(self.around, chances, *self.ends[i], without=i)
             paths = _two_step_paths(self.around, self.ends, self.maps, i)
-            if likely is not None and likely.probability >= _MIN_PATH_PROBABILITY:
+            if likely is not None and likely.probability >= min_path_probability:
                 walk = zip(likely.edges, likely.shapes, strict=False)
                 steps = tuple(CycleStep(e, best[e], self.ends[e][0] == at) for e, at in walk)
                 paths.insert(0, CyclePath(steps, likely.shapes[1:-1]))
@@ -187,10 +182,10 @@ class _Repair:
     def _replacement(self, edge: int) -> Replacement | None:
         """What replaces a map that is improbable; ``None`` for other maps."""
         chances, given, (a, b) = self.sync.probabilities[edge], self.given[edge], self.ends[edge]
-        if chances[0] >= _WRONG:
+        if chances[0] >= 0.1:  # probability of the map in use below which it is replaced
             return None
         best = int(chances[:-1].argmax())
-        best = best if chances[best] >= _RIGHT else 0
+        best = best if chances[best] >= 0.5 else 0  # least probability of the map that replaces it
         first, composed = self.maps[edge][0], best >= given
         return Replacement(
             edge,
@@ -213,11 +208,12 @@ class _Repair:
         asked = self._paths_around([i for i in np.flatnonzero(own > limit).tolist() if i not in done and right[i]])
         found: dict[int, Replacement] = {}
         size, latent = self.sync.latent.shape[1], self.sync.latent
+        min_gain = 0.3  # how much better a composition must score to replace a map that is right on the whole
         for (i, path), made in zip(asked, self.compose(asked) if asked else [], strict=True):
             a, b = self.ends[i]
             residual = float(map_residuals(made.map[None, :size, :size], latent[a], latent[b])[0])
             before = self._evidence(i, 0)
-            least = found[i].after.score if i in found else before.score + _MIN_GAIN
+            least = found[i].after.score if i in found else before.score + min_gain
             if made.score > least and residual < own[i] and made.reversed == self.maps[i][0].reversed:
                 after = MapEvidence(before.probability, made.score, residual)
                 found[i] = Replacement(i, "composition", before, after, path=path, improved=True)
@@ -243,7 +239,7 @@ def _two_step_paths(
         steps = (CycleStep(first, 0, ends[first][0] == source), CycleStep(second, 0, ends[second][0] == middle))
         found.append((min(maps[first][0].score, maps[second][0].score), CyclePath(steps, (middle,))))
     found.sort(key=lambda item: -item[0])
-    return [path for _, path in found[:_N_TWO_STEP]]
+    return [path for _, path in found[:3]]  # paths of two steps by the maps in use that are tried for a doubted pair
 
 
 def _synchronize(

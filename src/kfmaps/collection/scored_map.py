@@ -11,13 +11,11 @@ import numpy as np
 from kfmaps._arrays import to_numpy
 from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
 from kfmaps.fmap.convert import to_functional
-from kfmaps.matching.candidates import AGAIN, refine_batch
+from kfmaps.matching.candidates import FINE, FINE_WEIGHTS, refine_batch
 from kfmaps.matching.quality import ShapeSamples, map_quality, mirror_samples
 from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.matching.score import SCORE, probability
 from kfmaps.shape import Shape
-
-_SCORED_FUNCTIONS = 80  # functions of the maps that are scored, as many as the search scores by
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,14 +42,14 @@ def score_pair_maps(
     and one that was not are comparable, and scores mean what they mean there.
     """
     turned = [False] * len(maps) if reversed is None else list(reversed)
-    k = min(_SCORED_FUNCTIONS, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
+    k = min(FINE, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     bases = source.basis.truncate(k), target.basis.truncate(k)
     rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
     found: list[ScoredMap | None] = [None] * len(maps)
     for back in sorted(set(turned)):
         on = build_sample_pair(probes[0], mirror_samples(probes[1]) if back else probes[1])
         rows = [i for i, one in enumerate(turned) if one == back]
-        weights = (AGAIN[0] if on.descriptor_cost is not None else 0.0, 0.0)
+        weights = (FINE_WEIGHTS[0][0] if on.descriptor_cost is not None else 0.0, 0.0)
         settled, points = refine_batch(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
         for i, C, at in zip(rows, settled, points, strict=True):
             quality = map_quality(C, on.source, on.target, at)

@@ -10,9 +10,6 @@ from scipy.linalg import null_space, solve
 from scipy.spatial.distance import cdist
 
 _MAX_ROUNDS = 50
-_TOLERANCE = 1e-6  # largest step, in the length of the longest curve, at which the rounds end
-_COINCIDENT = 1e-3  # distance of landmarks that count as one, such as one at the end of a curve, in the centroid size
-_MAX_STEP = 0.4  # largest step in one round, in the distance to the next point of the curve: points keep their order
 
 
 def bending_energy_matrix(points: np.ndarray) -> np.ndarray:
@@ -66,16 +63,16 @@ def slide_semilandmarks(
     energy[np.ix_(used, used)] = bending_energy_matrix(template[used])
     slid = np.where(there[:, None], points, 0.0)
     least = float(np.einsum("ia,ij,ja->", slid, energy, slid))
+    tolerance = 1e-6  # largest step, in the length of the longest curve, at which the rounds end
+    longest = 0.4  # largest step in one round, in the distance to the next point of the curve: points keep their order
     for _ in range(_MAX_ROUNDS):
         tangents = np.concatenate([path.spline(path.at, 1) for path in paths])
         matrix = energy[np.ix_(rows, rows)] * (tangents @ tangents.T)
         matrix += 1e-10 * np.trace(matrix) / len(rows) * np.eye(len(rows))  # what does not bend does not slide
         steps = -solve(matrix, (tangents * (energy @ slid)[rows]).sum(axis=1), assume_a="pos")
-        steps *= min(
-            1.0, _MAX_STEP / max(np.abs(steps / np.concatenate([path.gaps() for path in paths])).max(), 1e-300)
-        )
+        steps *= min(1.0, longest / max(np.abs(steps / np.concatenate([path.gaps() for path in paths])).max(), 1e-300))
         new, before = slid.copy(), [path.at for path in paths]
-        while np.abs(steps).max() > _TOLERANCE * max(path.length for path in paths):
+        while np.abs(steps).max() > tolerance * max(path.length for path in paths):
             for path, at, step in zip(paths, before, np.split(steps, _ends(paths)), strict=True):
                 path.at = at + step
                 new[path.rows] = path.spline(path.at)
@@ -109,7 +106,9 @@ class _Path:
 
 def _distinct(points: np.ndarray, rows: Sequence[int]) -> np.ndarray:
     """Those of ``rows`` that lie apart from the ones before: between two in one place a spline may bend without end."""
-    near = _COINCIDENT * np.linalg.norm(points[rows] - points[rows].mean(axis=0)) if rows else 0.0
+    # distance of landmarks that count as one, such as one at the end of a curve, in the centroid size
+    coincident = 1e-3
+    near = coincident * np.linalg.norm(points[rows] - points[rows].mean(axis=0)) if rows else 0.0
     found: list[int] = []
     for row in rows:
         if not found or np.linalg.norm(points[found] - points[row], axis=1).min() > near:

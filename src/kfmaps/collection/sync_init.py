@@ -11,7 +11,6 @@ from scipy.sparse.linalg import eigsh
 
 from kfmaps.fmap.constraints import nearest_orthogonal
 
-_DENSE = 1500  # unknowns up to which eigenvectors are worked out densely
 MAX_LOG_ODDS = 4.0
 """Largest log-odds that a candidate's own evidence counts for."""
 
@@ -68,7 +67,7 @@ def spectral_init(
         firsts, inner = np.stack([rows, columns])[:, :, None, None] * functions, np.arange(functions)
         at = np.broadcast_arrays(firsts[0] + inner[:, None], firsts[1] + inner)
         whole = csr_array((values.ravel(), (at[0].ravel(), at[1].ravel())), shape=(size, size))
-    if size <= _DENSE:
+    if size <= 1500:  # unknowns up to which eigenvectors are worked out densely
         vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
     else:
         start = np.random.default_rng(0).normal(size=size)

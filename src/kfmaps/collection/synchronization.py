@@ -23,15 +23,11 @@ from kfmaps.geometry.connectivity import component_labels
 
 N_FUNCTIONS = 20
 """Size of the maps that are compared: enough to tell flipped limbs, and few enough to fit other bodies."""
-_N_LEVELS = 8  # steps in which the tolerance falls
-_N_SWEEPS = 6  # sweeps over all shapes at each tolerance
 _RESIDUAL_LIMITS = (0.15, 0.7)
 """Least and largest residual from which a candidate is rather wrong. A random map has 1 to 2, a flipped one 0.8 and
 more, right ones between near-isometric bodies 0.02 to 0.1."""
 OUTLIER_FACTOR = 4.0
 """Multiple of the median residual of the maps that fit, from which one is rather wrong."""
-_MAX_REASSIGNMENTS = 5  # rounds in which shapes may take what one of their edges says instead of the mean of all
-_MAX_REJOINS = 3  # rounds in which parts of the graph that agree within may be turned against each other as wholes
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +112,8 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
         [np.clip([c.log_odds for c in edge.candidates], -MAX_LOG_ODDS, MAX_LOG_ODDS) for edge in edges],
     )
     result = _solve(problem, functions)
-    for _ in range(_MAX_REJOINS):
+    max_rejoins = 3  # rounds in which parts of the graph that agree within may be turned against each other as wholes
+    for _ in range(max_rejoins):
         turned = _rejoin(problem, result)
         if turned is None:
             break
@@ -143,7 +140,8 @@ def _anneal(problem: _Problem, latent: np.ndarray) -> SyncResult:
     """The result that is reached from ``latent (n, k, k)`` as the tolerance falls."""
     limit = _RESIDUAL_LIMITS[1]
     chances = problem.probabilities([np.zeros(len(o)) for o in problem.log_odds], limit, 1.0)
-    for level in range(_N_LEVELS):
+    n_levels = 8  # steps in which the tolerance falls
+    for level in range(n_levels):
         residuals = problem.residuals(latent)
         typical = [float(r[p[:-1].argmax()]) for r, p in zip(residuals, chances, strict=True) if p[-1] < 0.5]
         if typical:
@@ -151,7 +149,7 @@ def _anneal(problem: _Problem, latent: np.ndarray) -> SyncResult:
         else:
             limit = _RESIDUAL_LIMITS[1]
         # At first the tolerance is that of any map, at last a third of the limit.
-        spread = limit / 3 + (1.0 - limit / 3) * (1 - level / (_N_LEVELS - 1)) ** 2
+        spread = limit / 3 + (1.0 - limit / 3) * (1 - level / (n_levels - 1)) ** 2
         chances = problem.probabilities(residuals, limit, spread)
         latent = _sweep(problem, latent, chances)
     return _refine(problem, latent, limit)
@@ -159,7 +157,7 @@ def _anneal(problem: _Problem, latent: np.ndarray) -> SyncResult:
 
 def _refine(problem: _Problem, latent: np.ndarray, limit: float) -> SyncResult:
     """The result that is reached from ``latent (n, k, k)`` when only maps within ``limit`` count."""
-    for _ in range(_MAX_REASSIGNMENTS):
+    for _ in range(5):  # rounds in which shapes may take what one of their edges says instead of the mean of all
         latent, moved = _reassign(problem, latent, limit)
         if not moved:
             break
@@ -228,7 +226,7 @@ def _sweep(problem: _Problem, latent: np.ndarray, chances: Sequence[np.ndarray])
     latent = latent.copy()
     mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, problem.maps, strict=True)]
     around = problem.incident()
-    for _ in range(_N_SWEEPS):
+    for _ in range(6):  # sweeps over all shapes at each tolerance
         for v, near in enumerate(around):
             pull = np.zeros(latent.shape[1:])
             for i in near:

@@ -13,30 +13,6 @@ from kfmaps.geometry.point_cloud import cloud_areas
 
 _SHARPNESS = 12.0
 """Exponent of the weights of links. With the 4 of Kolluri et al. noise leaves webs between limbs."""
-_LARGEST = 10.0
-"""Largest circumradius, over the longest side of the box around the points."""
-_NEIGHBOURS = 18
-"""Nearest points that noise is estimated from."""
-_MAX_NOISE = 0.15
-"""Estimated noise, see :func:`_fit_quadrics`, from which points are projected. Clean bodies have 0.02 to 0.12; noise of
-0.003 and 0.01 √area makes 0.3 and 0.67 on 5,000 points."""
-_NEIGHBOURS_PER_NOISE = 450.0
-"""Neighbours to project by, over the squared noise."""
-_PROJECTED_BY = 30, 75
-"""The fewest and the most of them: with more, limbs of 5,000 points are flattened."""
-_PROJECTIONS = 3
-"""The most projections."""
-_AT_ONCE = 4000
-"""Points that are projected at once."""
-_MAX_ROUGHNESS = 0.14
-"""Median height of a vertex over its neighbours' mean, over the length of edges: with more noise maps were wrong and
-called "sure". Clean bodies have 0.05 to 0.12."""
-_MIN_USED = 0.95
-"""Share of the points that must be corners of faces."""
-_MAX_AREA_RATIO = 1.2
-"""How much larger or smaller than the cloud's estimated area the surface may be."""
-_OTHERS = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
-"""Corners of the face opposite to each corner of a tetrahedron."""
 
 
 def surface_of_cloud(points: np.ndarray) -> Mesh | None:
@@ -58,11 +34,16 @@ def surface_of_cloud(points: np.ndarray) -> Mesh | None:
         faces = crust_faces(points)
     except QhullError:  # all in a plane
         return None
-    if len(np.unique(faces)) < _MIN_USED * len(points) or _roughness(points, faces) > _MAX_ROUGHNESS:
+    # Median height of a vertex over its neighbours' mean, over the length of edges: with more noise maps were wrong and
+    # called "sure". Clean bodies have 0.05 to 0.12.
+    max_roughness = 0.14
+    min_used = 0.95  # share of the points that must be corners of faces
+    if len(np.unique(faces)) < min_used * len(points) or _roughness(points, faces) > max_roughness:
         return None
     mesh = Mesh(points, faces)
     ratio = surface_area(mesh) / cloud_areas(points).sum()
-    return mesh if 1 / _MAX_AREA_RATIO < ratio < _MAX_AREA_RATIO else None
+    max_area_ratio = 1.2  # how much larger or smaller than the cloud's estimated area the surface may be
+    return mesh if 1 / max_area_ratio < ratio < max_area_ratio else None
 
 
 def project_noise(points: np.ndarray) -> np.ndarray:
@@ -80,11 +61,17 @@ def project_noise(points: np.ndarray) -> np.ndarray:
     -------
     (n, 3) float64
     """
-    for _ in range(_PROJECTIONS):
-        noise = _fit_quadrics(points, _NEIGHBOURS)[1]
-        if noise < _MAX_NOISE:
+    neighbours = 18  # nearest points that noise is estimated from
+    # Estimated noise, see :func:`_fit_quadrics`, from which points are projected. Clean bodies have 0.02 to 0.12; noise
+    # of 0.003 and 0.01 √area makes 0.3 and 0.67 on 5,000 points.
+    max_noise = 0.15
+    neighbours_per_noise = 450.0  # neighbours to project by, over the squared noise
+    projected_by = 30, 75  # the fewest and the most of them: with more, limbs of 5,000 points are flattened
+    for _ in range(3):  # the most projections
+        noise = _fit_quadrics(points, neighbours)[1]
+        if noise < max_noise:
             break
-        count = int(np.clip(_NEIGHBOURS_PER_NOISE * noise**2, *_PROJECTED_BY))
+        count = int(np.clip(neighbours_per_noise * noise**2, *projected_by))
         points = _fit_quadrics(points, count)[0]
     return points
 
@@ -96,7 +83,7 @@ def _fit_quadrics(points: np.ndarray, count: int) -> tuple[np.ndarray, float]:
     """
     tree, count = KDTree(points), min(count, len(points))
     projected, noise = np.empty_like(points), np.empty(len(points))
-    for some in blocks(len(points), _AT_ONCE):
+    for some in blocks(len(points), 4000):  # points that are projected at once
         far, near = tree.query(points[some], k=count)
         weights = np.exp(-((2 * far / far[:, -1:]) ** 2))
         weights /= weights.sum(axis=1, keepdims=True)
@@ -175,7 +162,8 @@ def _circumspheres(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, n
     edges[flat] = np.eye(3)
     middle = np.linalg.solve(edges, 0.5 * (edges**2).sum(axis=2, keepdims=True))[:, :, 0]
     radii = np.linalg.norm(middle, axis=1)
-    kept = np.minimum(radii, _LARGEST * float(np.ptp(points, axis=0).max()))
+    largest = 10.0  # largest circumradius, over the longest side of the box around the points
+    kept = np.minimum(radii, largest * float(np.ptp(points, axis=0).max()))
     return corners[:, 0] + middle * (kept / radii)[:, None], kept
 
 
@@ -192,7 +180,9 @@ def outward_faces(
     cell, opposite : (f,) int
         Of each face its tetrahedron and, from 0 to 3, the corner that it does not have. It is turned away from that.
     """
-    faces = np.take_along_axis(cells[cell], _OTHERS[opposite], axis=1)
+    # Corners of the face opposite to each corner of a tetrahedron.
+    others = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
+    faces = np.take_along_axis(cells[cell], others[opposite], axis=1)
     a, b, c = (points[faces[:, i]] for i in range(3))
     normals = unit_rows(np.cross(b - a, c - a))
     inward = ((points[cells[cell, opposite]] - a) * normals).sum(axis=1) > 0

@@ -16,11 +16,8 @@ from kfmaps._arrays import check_count, like, take, to_numpy
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 
-_STRATA_DIMENSIONS = 8  # coordinates of the embedding that strata are cut by
 _POOL_SIZE = 8_000
 """Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
-_MIN_HALF_AREA = 0.15
-"""Part of the area that half of the samples stand for, below which they crowd: on bodies it is 0.24 and more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +78,9 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
 def _crowded(samples: SpectralSamples, count: int) -> bool:
     """Whether the half of the samples with the smallest areas has next to none of the area."""
     areas = np.sort(to_numpy(samples.basis.mass))
-    return len(areas) == count and float(areas[: count // 2].sum()) < _MIN_HALF_AREA * float(areas.sum())
+    # Part of the area that half of the samples stand for, below which they crowd: on bodies it is 0.24 and more.
+    least = 0.15
+    return len(areas) == count and float(areas[: count // 2].sum()) < least * float(areas.sum())
 
 
 def stratified_samples(
@@ -167,7 +166,7 @@ def stratified(
     (q,) int64
         Rows in ascending order: ``count`` or, where one is drawn twice, fewer.
     """
-    order = KDTree(embedding[:, :_STRATA_DIMENSIONS]).indices
+    order = KDTree(embedding[:, :8]).indices  # coordinates of the embedding that strata are cut by
     reached = np.cumsum(mass[order])
     drawn = (np.arange(count) + np.random.default_rng(rng).random(count)) / count
     return np.unique(order[np.searchsorted(reached / reached[-1], drawn).clip(max=len(order) - 1)])

@@ -21,8 +21,6 @@ from kfmaps.geometry.geodesic_graph import (
 from kfmaps.geometry.mesh import Mesh, unit_rows
 
 _VERTEX_EDGES = 4  # edges that a straight line from a point to a vertex may cross
-_DIRECT_EDGES = 16
-"""Edges that a straight line from one point to the other may cross: farther ones go over vertices, at 0.3 % more."""
 
 
 def surface_point_distances(
@@ -51,6 +49,8 @@ def surface_point_distances(
     places = [np.einsum("qi,qij->qj", w, mesh.vertices[faces[f]]) for f, w in sides]
     straight = np.where(sides[0][0] == sides[1][0], np.linalg.norm(places[0] - places[1], axis=1), np.inf)
     links = []
+    # Edges that a straight line from one point to the other may cross: farther ones go over vertices, at 0.3 % more.
+    direct_edges = 16
     for side, ((chosen, _), points) in enumerate(zip(sides, places, strict=True)):
         corners = faces[chosen]
         away = np.linalg.norm(mesh.vertices[corners] - points[:, None], axis=2)
@@ -58,7 +58,7 @@ def surface_point_distances(
         links.append((np.repeat(here, 3), corners.ravel(), away.ravel()))
         inside_ = np.flatnonzero(number[chosen] >= 0)
         windows = _views(mesh.vertices, inner, number[chosen[inside_]], points[inside_], inside_)
-        for depth in range(_VERTEX_EDGES if side else _DIRECT_EDGES):
+        for depth in range(_VERTEX_EDGES if side else direct_edges):
             if side == 0:
                 _met(straight, mesh.vertices, inner, start, twins, windows, number[sides[1][0]], sides[1][1])
             windows, *seen = _crossed(mesh.vertices, inner, start, twins, windows)

@@ -33,7 +33,6 @@ from kfmaps.kernels.kernels import KernelLike
 from kfmaps.matching.features import Descriptors, Features, kernel_features, resolve_kernel_width
 from kfmaps.shape import Shape
 
-_SINGLE_RTOL = 1e-10  # compression from which operators are formed in single precision
 CONDENSATION = 0.5
 """Part of ``compression`` that is spent on the features, before slices are formed of them."""
 ORIENTATION_FEATURES = 40
@@ -163,8 +162,9 @@ def compressed_operators(
     if rtol:
         formed = truncate_features(bases[0], formed[0], bases[1], formed[1], CONDENSATION * rtol)
     # In single precision where less than its error is left out anyway.
+    single_rtol = 1e-10  # compression from which operators are formed in single precision
     packed_s, packed_t = (
-        multiplication_operators(b, F, threads=threads, single=rtol >= _SINGLE_RTOL)
+        multiplication_operators(b, F, threads=threads, single=rtol >= single_rtol)
         for b, F in zip(bases, formed, strict=True)
     )
     return truncate_operators(packed_s, packed_t, rtol) if rtol else (packed_s, packed_t)

@@ -39,20 +39,14 @@ from kfmaps.matching.score import SCORE, Candidate, select_distinct
 from kfmaps.shape import Shape
 
 _QUICK = 2  # weights of the sign choices after which a search may end early: then the others are left out
-ROUGH, ROUGH_STEP = 40, 4
-"""Functions at the end of the rough refinement, and how many more at each step."""
-FINE, FINE_FROM, FINE_STEP = 80, 20, 5
-"""The same of the refinement of the best, on all samples; from fewer functions it loses right maps."""
+FINE = 80
+"""Functions of refined candidates, which are scored."""
 FINE_WEIGHTS: tuple[KernelWeights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
 """Without extremities and with them: distances from extremities mislead where a hand has grown to a thigh."""
-AGAIN: KernelWeights = (12.0, 12.0)
-"""Of a refinement that begins with a refined map."""
 N_PERTURBATIONS = 6
 """Maps that start from a random symmetry of the low functions."""
-TURNED = 3
-"""Of the best rough maps that differ, those that are composed with symmetries of the shapes."""
-FINALISTS, _FEWER = 10, 6
-"""Distinct rough maps that are refined further, and those where a search ends early."""
+_FEWER = 6
+"""Distinct rough maps that are refined further where a search ends early; else it is ten."""
 
 
 def candidates(
@@ -88,14 +82,15 @@ def candidates(
         found += refine_coarse(starts, few, functions, threads)
     report(0.7)
     order = by_score(found)
-    again = symmetry_inits(distinct_maps(order, few.source, SCORE.distinct_distance, TURNED), few, functions, threads)
+    best = distinct_maps(order, few.source, SCORE.distinct_distance, 3)
+    again = symmetry_inits(best, few, functions, threads)
     if not easy:
         C, values = order[0].functional_map, source.basis.eigenvalues
         kicks = [perturb(C, values, np.random.default_rng(seed + i)) for i in range(N_PERTURBATIONS)]
         again += [Start(f"kicked {i}", kick, STARTS[0], WEIGHTS[0], False) for i, kick in enumerate(kicks)]
     found += refine_coarse(again, few, functions, threads)
     report(0.75)
-    chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, _FEWER if easy else FINALISTS)
+    chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, _FEWER if easy else 10)
     refined = refine_fine(chosen, few, samples.whole, functions, threads)
     report(1.0)
     return refined
@@ -115,8 +110,8 @@ def early_exit(found: list[Candidate]) -> bool:
 
 
 def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads: int | None = None) -> list[Candidate]:
-    """Refine the starts on few samples."""
-    stop = min(ROUGH, functions)
+    """Refine the starts on few samples, up to 40 functions in steps of 4."""
+    stop = min(40, functions)
     groups: dict[tuple[int, KernelWeights], list[Start]] = {}
     for start in starts:
         size = min(start.functions, stop, *start.functional_map.shape)
@@ -125,7 +120,7 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads
     for (size, weights), members in groups.items():
         maps = np.stack([start.functional_map[:size, :size] for start in members])
         matches = [start.match for start in members]
-        refined = refine_batch(maps, pair, (*range(size, stop, ROUGH_STEP), stop), weights, matches, threads)
+        refined = refine_batch(maps, pair, (*range(size, stop, 4), stop), weights, matches, threads)
         found += score_maps(
             [(s.name, s.uses_descriptors) for s in members], *refined, pair, threads, [s.fit for s in members]
         )
@@ -164,11 +159,11 @@ def refine_finely(
     matches: Sequence[ExtremityMatch | None],
     threads: int | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Refine rough candidates on all samples, up to :data:`FINE` functions."""
+    """Refine rough candidates on all samples, up to :data:`FINE` functions in steps of 5."""
     stop = min(FINE, functions)
-    size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
+    size = min(20, stop, *chosen[0].functional_map.shape)  # from fewer functions it loses right maps
     maps = np.stack([c.functional_map[:size, :size] for c in chosen])
-    return refine_batch(maps, pair, (*range(size, stop, FINE_STEP), stop), weights, matches, threads)
+    return refine_batch(maps, pair, (*range(size, stop, 5), stop), weights, matches, threads)
 
 
 def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
@@ -179,7 +174,7 @@ def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = Non
     for uses in (True, False):
         members = [i for i, c in enumerate(found) if c.uses_descriptors == uses]
         if members:
-            weights = distinct_weights((AGAIN if uses else WEIGHTS[0],), pair)[0]
+            weights = distinct_weights((FINE_WEIGHTS[0] if uses else WEIGHTS[0],), pair)[0]
             refined = refine_batch(maps[members], pair, (max(size // 2, 2), size), weights, (), threads)
             out += score_maps(
                 [(found[i].name, uses) for i in members], *refined, pair, threads, [found[i].fit for i in members]

@@ -19,18 +19,10 @@ from kfmaps.matching.score import select_distinct
 
 FEWEST = 3
 """Least number of extremities that tell limbs apart."""
-LEFT_OUT = 0.15
-"""Cost of leaving out all extremities; that of one is its share. An ear of a dog has no partner on a cat."""
-SPARE = 5
-"""Number of extremities from which one may be left out."""
 TRIED = 200
 """Matches that are compared at samples."""
 THIN = 150
 """Samples at which they are compared."""
-KEPT = 32
-"""Matches that are refined."""
-NEAR = 0.5
-"""Largest distance of an extremity's image from the extremity that it goes to, over the mean distance of points."""
 SHOT = 0.02
 """Weight of SHOT beside distances from extremities."""
 
@@ -86,7 +78,7 @@ def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarr
     thin = a.subsample(THIN), b.subsample(THIN)
     less = None if shot is None else shot[:THIN, :THIN]
     left = [float(extremity_cost(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
-    return [tried[i] for i in np.argsort(left, kind="stable")[:KEPT]]
+    return [tried[i] for i in np.argsort(left, kind="stable")[:32]]  # matches that are refined
 
 
 def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
@@ -100,13 +92,15 @@ def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[Ext
     apart = extremity_difference(source, target)
     both = min(len(a.points), len(b.points))
     costs, found = [], []
-    for size in (both, both - 1) if both >= SPARE else (both,):
+    # Cost of leaving out all extremities; that of one is its share. An ear of a dog has no partner on a cat.
+    left_out = 0.15
+    for size in (both, both - 1) if both >= 5 else (both,):  # number of extremities from which one may be left out
         images = np.array(list(permutations(range(len(b.points)), size)))
         for chosen in combinations(range(len(a.points)), size):
             ours = between_s[np.ix_(chosen, chosen)]
             theirs = between_t[images[:, :, None], images[:, None, :]]
             cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))
-            cost = cost + apart[np.array(chosen), images].mean(axis=1) + LEFT_OUT * (both - size) / both
+            cost = cost + apart[np.array(chosen), images].mean(axis=1) + left_out * (both - size) / both
             best = np.argsort(cost, kind="stable")[:TRIED]
             costs.append(cost[best])
             found += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
@@ -145,7 +139,9 @@ def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples)
     # From each extremity of the source to the image of each of the target.
     off = a.distances[:, points[b.points]]
     nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
-    theirs = np.flatnonzero((off.min(axis=0) < NEAR) & (nearest_t[nearest_s] == np.arange(len(b.points))))
+    # Largest distance of an extremity's image from the extremity that it goes to, over the mean distance of points.
+    near = 0.5
+    theirs = np.flatnonzero((off.min(axis=0) < near) & (nearest_t[nearest_s] == np.arange(len(b.points))))
     return ExtremityMatch(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
 
 

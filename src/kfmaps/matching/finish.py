@@ -14,6 +14,7 @@ from kfmaps.fmap.convert import check_point_map, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.matching.candidates import FINE
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.postprocess import refine_map, reseed
@@ -24,9 +25,6 @@ from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error,
 from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
-
-CONTINUED = 80
-"""Size of the functional map that :func:`match_from_map` starts from: that of a search's best candidate."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +179,7 @@ def match_from_map(
     meshes = (source.given_mesh, target.given_mesh)
     task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer())
     shapes = task.shapes(known.orientation)
-    size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))
+    size = min(FINE, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.points_within(points), *bases))
     told = {"orientation": known.orientation, "quality": known.quality}

@@ -40,26 +40,16 @@ KernelWeights = tuple[float, ...]
 WEIGHTS: tuple[KernelWeights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
 """In the rough refinement of sign choices: none, so that symmetric maps are found too, much, and some."""
 FIT_WEIGHTS: tuple[KernelWeights, ...] = ((4.0, 12.0), (12.0, 12.0))
-EXTREMITY_WEIGHTS: tuple[KernelWeights, ...] = ((4.0, 12.0, 30.0),)
 EXTREMITY_FUNCTIONS = 12
 """Functions of the map that an extremity match starts from."""
 STARTS = (6, 10, 20)
 """Functions that the rough refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""
-MIN_FREQUENCY = 0.03
-"""Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
 
 LEARNED = "learned"
 """Descriptor set of fits with a learned kernel, see :mod:`kfmaps.matching.learned_kernel`."""
 FIT_POINTS = 2000
 """Samples of each shape that a fit is made from."""
-SIZES = (20, 50, 20, 35, 50, 35)
-"""Functions of the fits of a descriptor set, in the order of how often each was right."""
-ORIENTATION = (0.1, 0.1, 1.0, 0.1, 1.0, 1.0)
-"""Their weights of orientation."""
-COMPRESSION = 1e-3
-NYSTROM = 200
-SOLVER = CG(rtol=1e-4, max_iter=200)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +119,7 @@ def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
     maps = [(match, paired_map(match, pair, size)) for match in found]
     return [
         Start(f"{match}", C, len(C), w, True, match)
-        for w in distinct_weights(EXTREMITY_WEIGHTS, pair)
+        for w in distinct_weights([(4.0, 12.0, 30.0)], pair)
         for match, C in maps
     ]
 
@@ -165,8 +155,9 @@ def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) ->
     """
     k = min(20, *C.shape)
     values = np.sqrt(np.maximum(eigenvalues[:k], 0.0))
-    # Constants of many components have eigenvalues of rounding size: all are alike.
-    width = 0.02 * max(float(values[-1]), MIN_FREQUENCY)
+    # Constants of many components have eigenvalues of rounding size: all are alike. Below 0.03, the root of an
+    # eigenvalue at unit area, there is no wave: a sphere's first is 5.
+    width = 0.02 * max(float(values[-1]), 0.03)
     alike = np.exp(-(((values[:, None] - values[None, :]) / width) ** 2))
     generator = rng.normal(size=(k, k)) * alike * np.pi
     rotation = expm((generator - generator.T) / 2)
@@ -197,9 +188,10 @@ def plan_fits(config: Config, surfaces: bool = True) -> list[FitSpec]:
     Point clouds (not ``surfaces``) have neither SHOT nor orientation.
     """
     assert config.search is not None
-    sizes = [min(k, config.basis.n_eigenfunctions) for k in SIZES]
+    # In the order of how often each was right.
+    sizes = [min(k, config.basis.n_eigenfunctions) for k in (20, 50, 20, 35, 50, 35)]
     names = ("SHOT", "SHOT and waves") if config.descriptors.shot and surfaces else ("waves",)
-    weights = ORIENTATION if surfaces else (0.0,) * 3
+    weights = (0.1, 0.1, 1.0, 0.1, 1.0, 1.0) if surfaces else (0.0,) * 3  # their weights of orientation
     found = [FitSpec(name, k, weight) for k, weight in zip(sizes, weights, strict=False) for name in names]
     return found[: config.search.candidates]
 
@@ -225,14 +217,14 @@ def fit_descriptor_set(
     # Both directions at once are for the answer; a candidate is refined one way.
     small = replace(
         config,
-        nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)),
+        nystrom=replace(config.nystrom, samples=min(200, config.nystrom.samples)),
         full_kernel=False,
-        solver=SOLVER,
+        solver=CG(rtol=1e-4, max_iter=200),
         preconditioner="sylvester",
         formulation=replace(config.formulation, bidirectional=False),
     )
     features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
-    packed = compressed_operators(low, features, max(config.operator_rtol, COMPRESSION), threads=1)
+    packed = compressed_operators(low, features, max(config.operator_rtol, 1e-3), threads=1)
     operators_of_features = [unpack_operators(p) for p in packed]
     turning: list[np.ndarray] = []
     known = [cube for cube in operators if cube is not None]

@@ -21,7 +21,6 @@ from kfmaps.matching.score import SCORE, Candidate
 _MAX_DIFFERENCE = 0.3
 """Difference of two extremities (:func:`extremity_difference`) up to which their limbs are exchanged. The legs of one
 side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more."""
-_MAX_PAIRS = 4  # pairs of limbs that are exchanged, the most alike
 
 
 def exchange_limbs(best: Candidate, pair: SamplePair, threads: int | None = None) -> list[Candidate]:
@@ -55,7 +54,7 @@ def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[Extre
     unlike = extremity_difference(source, source)[np.ix_(match.source, match.source)]
     pairs = [(unlike[i, j], i, j) for i, j in combinations(range(len(match.source)), 2)]
     found = []
-    for difference, i, j in sorted(pairs)[:_MAX_PAIRS]:
+    for difference, i, j in sorted(pairs)[:4]:  # pairs of limbs that are exchanged, the most alike
         if difference <= _MAX_DIFFERENCE:
             images = match.source.copy()
             images[[i, j]] = images[[j, i]]

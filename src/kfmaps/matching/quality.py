@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import Array, like, to_numpy
 from kfmaps.descriptors.shot import mirror_shot
-from kfmaps.descriptors.spectral import heat_signature
+from kfmaps.descriptors.spectral import log_heat_signature
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
@@ -29,17 +29,10 @@ from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.evidence import coarse_copy
 from kfmaps.shape import Shape
 
-_POINTS = 1000  # sample points on each shape
-COARSE = 300
-"""The first of them, between which geodesic distances are compared."""
 SURFACE = 6000
 """Vertices from which distances and orientation are worked out on a coarse copy with that many."""
 LOW = 20
 """Functions in which orientation is compared."""
-OPERATORS = 50
-"""Functions of the orientation operators that a probe keeps, also for fits."""
-_TIMES = np.geomspace(0.005, 0.3, 8)
-"""Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
 WAVES = 10
 """Functions whose orientation operators are compared."""
 
@@ -139,7 +132,7 @@ class ShortDistances:
 
 def sample_for_scoring(
     shape: Shape,
-    count: int = _POINTS,
+    count: int = 1000,
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     landmarks: np.ndarray | None = None,
@@ -150,7 +143,7 @@ def sample_for_scoring(
     """
     samples = spectral_samples(shape.basis, count, rng)
     marked = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
-    first = samples.vertices[:COARSE]
+    first = samples.vertices[:300]  # the first of them, between which geodesic distances are compared
     mesh, functions, rows = sample_surface(shape, np.concatenate([samples.vertices, marked]))
     graph = geodesic_graph(mesh, 1)
     close = pairwise_geodesics(graph, rows[: len(first)])
@@ -165,10 +158,11 @@ def sample_for_scoring(
         marks = np.where(joined, marks, max(farthest, marks[joined].max(initial=0.0)))
     orientation = None
     if len(shape.mesh.faces):
-        low = Basis(shape.basis.eigenvalues, functions[:, :OPERATORS], shape.basis.mass)
+        operators = 50  # functions of the orientation operators that a probe keeps, also for fits
+        low = Basis(shape.basis.eigenvalues, functions[:, :operators], shape.basis.mass)
         orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
-    heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, _TIMES)), 1e-12))
+    heat = log_heat_signature(samples.basis)
     return ShapeSamples(
         samples,
         close,

@@ -33,8 +33,6 @@ from kfmaps.shape import Shape, mirror_image
 
 BENT = 3
 """Distinct maps that are registered."""
-CLOSER = 5
-"""Maps that may be closer to each other and are registered too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +109,8 @@ def rerank_near_duplicates(
     A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
     both are bent. None that is farther ``behind`` before that.
     """
-    best = distinct_maps(in_order(found), samples.source, distance, CLOSER)
+    closer = 5  # maps that may be closer to each other and are registered too
+    best = distinct_maps(in_order(found), samples.source, distance, closer)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
     return in_order([*ranked, *with_bending(more, copies, threads)])

@@ -44,8 +44,6 @@ FIRST = 2
 """Maps that are repaired, whether or not they differ."""
 PAIRED = 3
 """Likeliest extremity matches that repairs begin with, where no map that is repaired has the same."""
-NEXT = 2
-"""Repaired candidates after the best that may turn out to be less torn than it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +122,7 @@ def refine_by_registration(
     least = reference_values(tried, min)
     order = in_order([normalize_errors(c, least) for c in tried])
     first = begun[which[next(i for i, c in enumerate(tried) if c.functional_map is order[0].functional_map)]]
-    nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 1 + NEXT)[1:]
+    nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 3)[1:]  # two others that may turn out better
     retries = (*nexts, SwappedRepair(setting, *first, least))
     return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), retries
 

@@ -27,8 +27,6 @@ from kfmaps.shape import mirror_image
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MAX_PICTURED = 60_000
-"""Vertices of both shapes together above which a notebook shows text without a picture."""
 SHAPE_FIELDS = ("source", "target", "basis_source", "basis_target")
 """Fields that no file holds."""
 _OPTIONAL = (
@@ -150,7 +148,8 @@ class Match:
     def _repr_html_(self) -> str:
         """Return what a notebook shows: the picture of :meth:`plot`, and the line of ``repr``."""
         words = f"<code>{escape(repr(self))}</code>"
-        if not hasattr(self, "source") or len(self.source.vertices) + len(self.target_to_source) > MAX_PICTURED:
+        max_pictured = 60_000  # vertices of both shapes together above which a notebook shows text without a picture
+        if not hasattr(self, "source") or len(self.source.vertices) + len(self.target_to_source) > max_pictured:
             return words
         from kfmaps import api
 

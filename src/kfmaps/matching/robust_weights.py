@@ -23,9 +23,6 @@ from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import Basis
 from kfmaps.matching.features import Descriptors
 
-FUNCTIONS = 30
-"""Size of the small fit: enough to tell a wrong landmark, a tenth of the work of the fit itself."""
-
 
 @dataclass(frozen=True, eq=False)
 class RobustWeights:
@@ -48,7 +45,8 @@ def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config:
             raise refuse("loss per landmark", "landmarks with maps of their own", "none", "take it per descriptor")
     else:
         groups = np.arange(descriptors.source.shape[1])
-    k = min(FUNCTIONS, config.basis.n_eigenfunctions)
+    functions = 30  # size of the small fit: enough to tell a wrong landmark, a tenth of the work of the fit itself
+    k = min(functions, config.basis.n_eigenfunctions)
     small = [basis.truncate(k) for basis in bases]
     sides = (descriptors.source, descriptors.target)
     P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]

@@ -65,8 +65,6 @@ _FEWER = 100
 """Functions at the end of the refinement of shapes that differ much: their high functions do not correspond."""
 STRETCH = 0.01
 """Area over which sizes may change evenly in the non-rigid fit of such shapes."""
-SETTLED = 3
-"""Maps to a mirror image that are worth a refinement of their own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -485,7 +483,8 @@ def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | N
     Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
     """
     images = by_score(rescore([replace(c, uses_descriptors=True) for c in found], mirrored, threads))
-    return by_score(rerefine(images[:SETTLED], mirrored, threads) + images[SETTLED:])
+    settled = 3  # maps to a mirror image that are worth a refinement of their own
+    return by_score(rerefine(images[:settled], mirrored, threads) + images[settled:])
 
 
 def deforms_unduly(found: Candidate) -> bool:

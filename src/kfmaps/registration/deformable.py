@@ -20,7 +20,6 @@ from kfmaps.geometry.mesh import Mesh, unit_rows, vertex_areas, vertex_normals
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
 _MIN_COSINE = 0.3  # cosine between two normals from which a pair of closest points counts; fully at 1
-_INITIAL_STIFFNESS = 1e-3  # stiffness of the first shape, which follows the map
 _ALONG = 0.03  # weight of squared distances along the surface, against 1 along its normal
 
 
@@ -145,7 +144,8 @@ def initial_deformation(
     _take_along(body.mesh, share, gathered)
     smooth = energy.factorize(1e-4, share)(gathered)
     x, wanted = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
-    solve = body.solver(_INITIAL_STIFFNESS, 1.0)
+    initial_stiffness = 1e-3  # stiffness of the first shape, which follows the map
+    solve = body.solver(initial_stiffness, 1.0)
     for round in range(3):
         agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), wanted)
         trust = np.clip(agreement, 0.0, 1.0)
@@ -154,8 +154,8 @@ def initial_deformation(
         diffusion = energy.factorize(2.5e-3 * 0.5**round, held)
         turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
         terms = [DataTerm(trust * own, mean)]
-        x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, turns, 8)
-        x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, rotations(energy, x), 8)
+        x = descend(energy, initial_stiffness, solve, terms, x, turns, 8)
+        x = descend(energy, initial_stiffness, solve, terms, x, rotations(energy, x), 8)
     return x
 
 

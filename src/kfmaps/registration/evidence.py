@@ -34,7 +34,6 @@ _QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigi
 _MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
 """Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
 _MIN_FACES = 12  # faces below which there is nothing to bend
-_SAMPLE_STEP = 6  # of a copy every so many vertices have SHOT
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +155,7 @@ def _bent_shot_error(pair: MeshPair, points: np.ndarray, samples: SurfaceSamples
 
 def _surface_samples(mesh: Mesh) -> SurfaceSamples:
     """Every few vertices of a ``mesh`` of unit area."""
-    at = np.arange(0, len(mesh.vertices), _SAMPLE_STEP)
+    at = np.arange(0, len(mesh.vertices), 6)  # of a copy every so many vertices have SHOT
     return SurfaceSamples(position_normals(mesh)[at], _descriptors(mesh, at))
 
 

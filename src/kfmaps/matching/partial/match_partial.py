@@ -22,7 +22,6 @@ from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
-_HOLES = 0.9  # share of the other's area from which a part is called a shape with holes
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,6 +152,7 @@ def describe_part(found: PartialMatch, reason: str) -> str:
         shares = found.overlap_source.mean(), found.overlap_target.mean()
         return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {reason}"
     share = found.scale**2
-    if share >= _HOLES:
+    holes = 0.9  # share of the other's area from which a part is called a shape with holes
+    if share >= holes:
         return f"the {found.part} has holes ({max(1 - share, 0):.0%} is missing)"
     return f"the {found.part} is a part, {share:.0%} of the other's area; {reason}"

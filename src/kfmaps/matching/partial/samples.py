@@ -15,10 +15,6 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
-_SUPPORT = 10_000
-"""Support points of SHOT, half of those that a descriptor at every vertex deserves. With fewer in large balls a person
-with holes was placed wrongly."""
-
 
 @dataclass(frozen=True, eq=False)
 class PartSurface:
@@ -51,7 +47,10 @@ class PartSamples(PartSurface):
     def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
         if radius not in self.descriptors:
-            found = shot(self.mesh, radius, at=self.samples, samples=_SUPPORT, threads=threads)
+            # Support points of SHOT, half of those that a descriptor at every vertex deserves. With fewer in large
+            # balls a person with holes was placed wrongly.
+            support = 10_000
+            found = shot(self.mesh, radius, at=self.samples, samples=support, threads=threads)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
 
