@@ -26,6 +26,9 @@ NOTHING = ("none", "all", "automatic")
 Kinds = Mapping[Any, tuple[type, ...]]
 """The record classes behind type hints that do not list them, such as a protocol."""
 
+JsonObject = dict[str, Any]
+"""An object of JSON or a table of TOML: plain values by name."""
+
 _T = TypeVar("_T")
 
 
@@ -35,7 +38,7 @@ class Setting:
 
     name: str
     hint: Any  # its type
-    default: Any  # its default value or what makes it; ``MISSING`` where there is none
+    default: object  # its default value or what makes it; ``MISSING`` where there is none
     help: str = ""  # what it means, without the full stop
     above: float | None = None  # exclusive and inclusive bounds of a number
     low: float | None = None
@@ -104,7 +107,7 @@ class Setting:
             remedy = f"write {self.name}={example}" if example else remedy
         raise refuse(label, wanted + (f", or {self.none}" if self.optional else ""), repr(value)[:80], remedy)
 
-    def _fits(self, value: Any) -> bool:
+    def _fits(self, value: object) -> bool:
         if self.choices:
             return isinstance(value, str) and value in self.choices
         if bool in self.types or isinstance(value, bool):
@@ -125,7 +128,7 @@ class Setting:
         )
 
 
-def _is_a(value: Any, hint: Any) -> bool:
+def _is_a(value: object, hint: object) -> bool:
     """Whether a value that is no plain one fits a type; a callable is one that is no class."""
     origin = get_origin(hint)
     if origin is tuple:
@@ -175,7 +178,7 @@ def settings_of(cls: type) -> Mapping[str, Setting]:
     return found
 
 
-def check_record(record: Any) -> None:
+def check_record(record: object) -> None:
     """Raise :class:`InvalidInput` when a field of ``record`` has a wrong type or is out of bounds."""
     for one in settings_of(type(record)).values():
         one.check(getattr(record, one.name), f"{type(record).__name__}.{one.name}")
@@ -213,7 +216,7 @@ def record_as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], 
     return value if plain else {"kind": "callable", "name": name(value)}
 
 
-def update(record: _T, values: Mapping[str, Any], fresh: Any, kinds: Kinds) -> _T:
+def update(record: _T, values: JsonObject, fresh: Any, kinds: Kinds) -> _T:
     """Return ``record`` with what ``values`` names replaced.
 
     Kinds may be written in any case, a record may be named by its kind alone (``kernel = "laplacian"``), and
@@ -275,13 +278,13 @@ def _one_of(
     return _updated(cls, table, begin, None, label, kinds)
 
 
-def _table(value: object, label: str) -> Mapping[str, Any]:
+def _table(value: object, label: str) -> JsonObject:
     if not isinstance(value, dict):
         raise refuse(label, "a table of settings", repr(value), f"write [{label}] and one setting a line")
     return value
 
 
-def _tuple(value: object, label: str, depth: int = 0) -> tuple[Any, ...]:
+def _tuple(value: object, label: str, depth: int = 0) -> tuple[object, ...]:
     """Nested lists of numbers as tuples; how many there must be is for their record to say."""
     if not isinstance(value, list | tuple) or depth > 3:
         raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")

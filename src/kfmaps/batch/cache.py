@@ -7,12 +7,12 @@ import json
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 import kfmaps
-from kfmaps._arrays import InvalidInput
+from kfmaps._arrays import Array, InvalidInput
 from kfmaps.batch.run_spec import digest_of
 from kfmaps.config import Config
 from kfmaps.io import atomic_output
@@ -82,7 +82,7 @@ def cached_samples(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
 
 def save_record(path: Path, record: object) -> None:
     """Write a dataclass with its arrays and the dataclasses in it, whole or not at all."""
-    arrays: dict[str, Any] = {}
+    arrays: dict[str, Array] = {}
     content = json.dumps(plain_record(record, arrays))
     with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
         np.savez(file, allow_pickle=False, **{_PLAIN: content}, **arrays)

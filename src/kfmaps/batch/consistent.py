@@ -310,7 +310,9 @@ def _remove_replacements(plan: Plan, kept: set[str]) -> None:
 
 def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:
     """What the collection says of every pair."""
-    rows: list[list[Any]] = [["source", "target", "candidates", "probability", "residual", "score", "changed", "why"]]
+    rows: list[list[object]] = [
+        ["source", "target", "candidates", "probability", "residual", "score", "changed", "why"]
+    ]
     changes = {change.edge: change for change in found.repaired.replacements}
     sync = found.repaired.sync
     for i, (task, maps) in enumerate(zip(store.tasks, store.scores, strict=True)):

@@ -221,7 +221,7 @@ def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:
     """A ``warnings.showwarning`` that tells the package's own warnings in one line each, and none twice."""
     told: set[str] = set()
 
-    def tell(message: Any, category: type[Warning], *where: Any, **more: Any) -> None:
+    def tell(message: object, category: type[Warning], *where: object, **more: object) -> None:
         if not issubclass(category, KfmapsWarning):
             otherwise(message, category, *where, **more)
         elif str(message) not in told:

@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 from kfmaps import _records
 from kfmaps._arrays import refuse
-from kfmaps._records import check_record, setting, settings_record
+from kfmaps._records import JsonObject, check_record, setting, settings_record
 from kfmaps.config.sections import BasisConfig, DescriptorConfig, Formulation, NystromConfig, Partial, Search, Weights
 from kfmaps.fmap.minimize import Preconditioner
 from kfmaps.fmap.refine import ICP, Refinement
@@ -196,6 +196,6 @@ def as_dict(value: Any) -> Any:
     return _records.record_as_dict(value, RECORDS, describe_kernel)
 
 
-def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:
+def from_dict(values: JsonObject, base: Config | None = None) -> Config:
     """Return ``base``, by default ``Config()``, with what ``values`` names replaced; the inverse of :func:`as_dict`."""
     return _records.update(base or Config(), values, Config(), KINDS)

@@ -51,7 +51,7 @@ class CompletedTerm:
     Nothing is known of its operator in other bases: it has no one-sided parts, and its diagonal there is the mean.
     """
 
-    term: Any
+    term: Any  # has these four methods
 
     def apply(self, C: Array) -> Array:
         return self.term.apply(C)

@@ -11,12 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
-from kfmaps.geometry.eigen.factorization import ShiftedFactorizer
+from kfmaps.geometry.eigen.factorization import ShiftedFactorizer, SparseMatrix
 from kfmaps.geometry.mesh import Mesh
 
 
@@ -24,10 +23,10 @@ from kfmaps.geometry.mesh import Mesh
 class ArapEnergy:
     """The operators of the rest shape that the energy is computed with; made by :func:`build_arap`."""
 
-    laplacian: Any  # (n, n): positive semi-definite, of the weights
+    laplacian: SparseMatrix  # (n, n): positive semi-definite, of the weights
     # (3 n, n): ``(moments @ x)`` stacks, for each axis ``a`` of the rest shape, ``Σ_j w_ij (x̄_i − x̄_j)_a (x_i −
     # x_j)``.
-    moments: Any
+    moments: SparseMatrix
     rest: np.ndarray  # (n, 3)
 
     @cached_property
@@ -36,7 +35,7 @@ class ArapEnergy:
         return ShiftedFactorizer(self.laplacian)
 
     @cached_property
-    def adjoint_moments(self) -> Any:
+    def adjoint_moments(self) -> SparseMatrix:
         """The transposed moments, (n, 3 n)."""
         return self.moments.T
 
@@ -54,8 +53,9 @@ def build_arap(mesh: Mesh) -> ArapEnergy:
         cot = np.divide(dot, area, out=np.zeros_like(dot), where=area > 0)
         tails, heads = [*tails, b], [*heads, c]
         values.append(0.5 * np.clip(cot, -1.0, 20.0))  # no sliver may outweigh all else
-    half: Any = coo_array((np.concatenate(values), (np.concatenate(tails), np.concatenate(heads))), shape=(n, n))
-    weights: Any = csr_array(half + half.T)
+    ends = np.concatenate(tails), np.concatenate(heads)
+    half: SparseMatrix = coo_array((np.concatenate(values), ends), shape=(n, n))
+    weights: SparseMatrix = csr_array(half + half.T)
     # Obtuse triangles make negative weights, with which the energy has no bottom.
     weights.data = np.maximum(weights.data, 0.05)
     weights.setdiag(0)

@@ -28,14 +28,14 @@ class HasVertices(Protocol):
     """A mesh of trimesh (``faces``) or Open3D (``triangles``)."""
 
     @property
-    def vertices(self) -> Any: ...
+    def vertices(self) -> ArrayLike: ...
 
 
 class HasPoints(Protocol):
     """A mesh of PyVista (``faces``) or meshio (``cells``)."""
 
     @property
-    def points(self) -> Any: ...
+    def points(self) -> ArrayLike: ...
 
 
 FileName = str | os.PathLike[str]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from kfmaps._records import JsonObject
 from kfmaps.geometry.mesh import vertex_normals
 from kfmaps.io.record import MeshFile, Skin, bytes_of
 
@@ -22,8 +23,8 @@ class _Chunks:
 
     def __init__(self) -> None:
         self.data = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
+        self.views: list[JsonObject] = []
+        self.accessors: list[JsonObject] = []
 
     def view(self, content: bytes, target: int | None = None) -> int:
         self.data += b"\0" * (-len(self.data) % 4)
@@ -65,20 +66,20 @@ def format_glb(shape: MeshFile) -> bytes:
         linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
         four = np.hstack([bytes_of(linear), np.full((len(colors), 1), 255, dtype=np.uint8)])
         attributes["COLOR_0"] = chunks.array(four[rows], _BYTE, "VEC4", normalized=True)
-    material: dict[str, Any] = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
-    tree: dict[str, Any] = {}
+    material: JsonObject = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
+    tree: JsonObject = {}
     if uv is not None and at_uv is not None:
         flipped = np.stack([uv[at_uv, 0], 1 - uv[at_uv, 1]], axis=1)
         attributes["TEXCOORD_0"] = chunks.array(flipped.astype("<f4"), _FLOAT, "VEC2")
         if picture is not None:
             material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
             tree |= {"textures": [{"source": 0}], "images": [{"bufferView": 0, "mimeType": picture.kind}]}
-    part: dict[str, Any] = {"attributes": attributes, "material": 0}
+    part: JsonObject = {"attributes": attributes, "material": 0}
     if len(faces):
         part["indices"] = chunks.array(faces.ravel().astype("<u4"), _INT, "SCALAR", _ELEMENT)
     else:
         part["mode"] = 0
-    made: dict[str, Any] = {"primitives": [part]}
+    made: JsonObject = {"primitives": [part]}
     if shape.morphs:
         part["targets"] = [{"POSITION": chunks.places(moved[rows])} for moved in shape.morphs.values()]
         made |= {"weights": [0.0] * len(shape.morphs), "extras": {"targetNames": list(shape.morphs)}}
@@ -108,13 +109,13 @@ def format_glb(shape: MeshFile) -> bytes:
     return head + struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
 
 
-def _nodes(skin: Skin | None, chunks: _Chunks) -> dict[str, Any]:
+def _nodes(skin: Skin | None, chunks: _Chunks) -> JsonObject:
     """The node of the mesh, and one for each joint of its skin."""
     if skin is None:
         return {"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
     above = np.where((skin.parents < 0)[:, None, None], np.eye(4), skin.matrices[skin.parents])
     local = np.linalg.pinv(above) @ skin.matrices  # a joint may be scaled to nothing
-    nodes: list[dict[str, Any]] = [{"mesh": 0, "skin": 0}]
+    nodes: list[JsonObject] = [{"mesh": 0, "skin": 0}]
     for j, (name, matrix) in enumerate(zip(skin.names, local, strict=True)):
         children = (1 + np.flatnonzero(skin.parents == j)).tolist()
         nodes.append({"name": name, **_placed(matrix), **({"children": children} if children else {})})
@@ -125,7 +126,7 @@ def _nodes(skin: Skin | None, chunks: _Chunks) -> dict[str, Any]:
     return {"scenes": [{"nodes": [0, *roots]}], "nodes": nodes, "skins": skins}
 
 
-def _placed(matrix: np.ndarray) -> dict[str, Any]:
+def _placed(matrix: np.ndarray) -> JsonObject:
     """A node's translation, rotation and scale, which animations need; its matrix where there is shear."""
     scale = np.linalg.norm(matrix[:3, :3], axis=0) * np.sign(np.linalg.det(matrix[:3, :3]))
     turn = matrix[:3, :3] / np.where(scale == 0, 1, scale)

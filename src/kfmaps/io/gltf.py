@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import refuse
 from kfmaps._memory import check_memory
+from kfmaps._records import JsonObject
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, Picture, Skin, picture_in
 from kfmaps.io.text import REPAIR, beside, complete_or_refuse, read_bytes
@@ -62,7 +63,7 @@ def buffer_files(data: bytes, name: str) -> list[Path]:
         return [_beside(uri, name) for uri in uris if uri is not None and not uri.startswith("data:")]
 
 
-def _split(data: bytes, name: str) -> tuple[dict[str, Any], bytes | None]:
+def _split(data: bytes, name: str) -> tuple[JsonObject, bytes | None]:
     """The JSON tree of a file, and the binary chunk of a GLB, whose chunks must fill it exactly."""
     binary = None
     if data[:4] == b"glTF":
@@ -93,7 +94,7 @@ def _beside(uri: str, name: str) -> Path:
     return path
 
 
-def _count(value: Any) -> int:
+def _count(value: object) -> int:
     """A number of things, or the number of one."""
     if type(value) is not int or value < 0:
         raise ValueError(f"a whole number is {value!r:.20}")
@@ -118,7 +119,7 @@ class _Scene:
             self.buffers.append(content[:size])
         self._check_parts()
 
-    def _one(self, kind: str, number: Any) -> dict[str, Any]:
+    def _one(self, kind: str, number: object) -> JsonObject:
         return self.tree[kind][_count(number)]
 
     def _content(self, uri: str) -> bytes:
@@ -180,7 +181,7 @@ class _Scene:
                         parts.append(_Part(mesh, j, i, matrix))
         return sorted(parts, key=lambda p: p[:3])
 
-    def rows(self, number: Any) -> np.ndarray:
+    def rows(self, number: object) -> np.ndarray:
         """The rows of an accessor, (count, width), not copied where they stand in their buffer."""
         accessor = self._one("accessors", number)
         item, width, count = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]], accessor["count"]
@@ -194,7 +195,7 @@ class _Scene:
         rows[at[:, 0]] = self._block(sparse["values"], item, width, sparse["count"])
         return rows
 
-    def _block(self, where: dict[str, Any], item: np.dtype, width: int, count: Any) -> np.ndarray:
+    def _block(self, where: JsonObject, item: np.dtype, width: int, count: object) -> np.ndarray:
         """``count`` rows of a buffer, from the view and offset that ``where`` names."""
         view = self._one("bufferViews", where["bufferView"])
         count, row = _count(count), item.itemsize * width
@@ -207,7 +208,7 @@ class _Scene:
             return np.zeros((0, width), item)
         return np.ndarray((count, width), item, buffer, first + offset, (step, item.itemsize))
 
-    def numbers(self, number: Any) -> np.ndarray:
+    def numbers(self, number: object) -> np.ndarray:
         """As :meth:`rows`, in float64; whole numbers that stand for fractions are made those."""
         rows = self.rows(number)
         if self.tree["accessors"][number].get("normalized") is True and rows.dtype.kind != "f":
@@ -253,7 +254,7 @@ class _Scene:
         joined = np.vstack(uv) * [1, -1] + [0, 1]  # glTF counts from the top of the picture
         return MeshFile(mesh, tints, joined, mesh.faces, self._picture(primitives), moves, skin)
 
-    def _attribute(self, attributes: dict[str, Any], title: str, n: int, columns: int) -> np.ndarray:
+    def _attribute(self, attributes: JsonObject, title: str, n: int, columns: int) -> np.ndarray:
         """The first ``columns`` numbers of each of ``n`` vertices."""
         count = self._one("accessors", attributes[title])["count"]
         values = self.numbers(attributes[title]) if count == n else np.zeros((0, 0))
@@ -261,7 +262,7 @@ class _Scene:
             raise refuse(f"{self.name}: {title}", f"{columns} numbers for each vertex", f"{count} rows", REPAIR)
         return values[:, :columns]
 
-    def _morphs(self, part: _Part, primitive: dict[str, Any], n: int) -> list[tuple[str, np.ndarray]]:
+    def _morphs(self, part: _Part, primitive: JsonObject, n: int) -> list[tuple[str, np.ndarray]]:
         """The name and the displacements (n, 3) of each morph target."""
         targets = primitive.get("targets", [])
         told = self.tree["meshes"][part.mesh].get("extras", {}).get("targetNames", [])
@@ -277,9 +278,7 @@ class _Scene:
             raise refuse(self.name, "joints that are nodes of the scene", "others", REPAIR)
         return joints
 
-    def _skinned(
-        self, part: _Part, attributes: dict[str, Any], joints: list[int], n: int
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _skinned(self, part: _Part, attributes: JsonObject, joints: list[int], n: int) -> tuple[np.ndarray, np.ndarray]:
         """How much each vertex of a part follows each of ``joints``, (n, j), and its matrix, (4, 4) or (n, 4, 4).
 
         A vertex that follows joints lies where they carry it, wherever the node of the part is.
@@ -317,7 +316,7 @@ class _Scene:
         names = tuple(str(self.tree["nodes"][j].get("name", f"joint {i}")) for i, j in enumerate(joints))
         return Skin(names, np.array(parents), np.stack([self.matrices[j] for j in joints]), weights)
 
-    def _check_size(self, primitives: list[dict[str, Any]], joints: list[int]) -> None:
+    def _check_size(self, primitives: list[JsonObject], joints: list[int]) -> None:
         """Refuse what nodes repeat again and again, and what does not fit into memory, before any of it is read."""
         used = [a for p in primitives for a in (p["attributes"]["POSITION"], p.get("indices")) if a is not None]
         sizes = {a: len(self.rows(a)) for a in set(used)}
@@ -332,7 +331,7 @@ class _Scene:
         follow = len(joints) * sum(sizes[p["attributes"]["POSITION"]] for p in primitives)
         check_memory(_BYTES_PER_ROW * rows + 48 * moved + 24 * follow, self.name, what, REPAIR)
 
-    def _picture(self, primitives: list[dict[str, Any]]) -> Picture | None:
+    def _picture(self, primitives: list[JsonObject]) -> Picture | None:
         """The colour texture that all ``primitives`` share; ``None`` when there is no such one, or of another kind.
 
         A picture beside the file that is not there is none either: who wants the shape alone need not have it.
@@ -358,7 +357,7 @@ class _Scene:
             raise refuse(self.name, f"a picture of {size} bytes", f"{max(len(buffer) - first, 0)}", _CUT)
         return picture_in(buffer[first : first + size])
 
-    def _triangles(self, primitive: dict[str, Any], n: int, name: str) -> np.ndarray:
+    def _triangles(self, primitive: JsonObject, n: int, name: str) -> np.ndarray:
         """The triangles (t, 3) of a primitive with ``n`` vertices, 0-based."""
         indexed = "indices" in primitive
         corners = self.rows(primitive["indices"])[:, 0].astype(np.int64) if indexed else np.arange(n)
@@ -374,12 +373,12 @@ class _Scene:
         return corners.reshape(-1, 3)
 
 
-def _moved(primitive: dict[str, Any]) -> list[Any]:
+def _moved(primitive: JsonObject) -> list[Any]:
     """The accessors of the morph targets of a primitive."""
     return [target["POSITION"] for target in primitive.get("targets", []) if "POSITION" in target]
 
 
-def _matrix(node: dict[str, Any]) -> np.ndarray:
+def _matrix(node: JsonObject) -> np.ndarray:
     """The 4 × 4 matrix of a node, from its matrix or its translation, rotation (x, y, z, w) and scale."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T

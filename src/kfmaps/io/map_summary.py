@@ -13,7 +13,8 @@ from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 import numpy as np
 
 import kfmaps
-from kfmaps._arrays import InvalidInput, refuse
+from kfmaps._arrays import Array, InvalidInput, refuse
+from kfmaps._records import JsonObject
 from kfmaps.config import Config, as_dict, from_dict
 from kfmaps.io.mapcontent import ARRAYS
 from kfmaps.io.text import REPAIR
@@ -27,7 +28,7 @@ _ELSEWHERE = {*(array.field for array in ARRAYS.values()), *SHAPE_FIELDS, "_rein
 """Fields of a match that its summary does not hold."""
 
 
-def summarize_match(match: Match) -> dict[str, Any]:
+def summarize_match(match: Match) -> JsonObject:
     """Return plain values of a match for JSON: its fields without the large arrays, and a few counts.
 
     The names are those of :class:`kfmaps.Match`; a group of fields is a dictionary. Numbers that are not finite are
@@ -51,7 +52,7 @@ def mean_confidence(match: Match) -> float | None:
     return float(values.mean()) if len(values) else None
 
 
-def parse_summary(text: str, name: str) -> dict[str, Any]:
+def parse_summary(text: str, name: str) -> JsonObject:
     """Return the dictionary in the JSON ``text`` of a summary; empty for an empty text."""
     try:
         values = json.loads(text) if text else {}
@@ -69,7 +70,7 @@ def parse_summary(text: str, name: str) -> dict[str, Any]:
     return values
 
 
-def plain_record(record: Any, arrays: dict[str, np.ndarray] | None = None, path: str = "") -> dict[str, Any]:
+def plain_record(record: Any, arrays: dict[str, np.ndarray] | None = None, path: str = "") -> JsonObject:
     """Return the fields of a record as plain values for JSON, without those that a map file keeps elsewhere.
 
     With ``arrays`` its arrays are put there, under dotted names, as :func:`read_record` takes them.
@@ -100,12 +101,14 @@ def _hints(cls: type) -> Mapping[str, Any]:
     return get_type_hints(cls)
 
 
-def _options(hint: Any) -> tuple[Any, ...]:
+def _options(hint: object) -> tuple[object, ...]:
     """The types of a union, or the one type."""
     return (hint,) if get_origin(hint) in (None, tuple, dict, Literal) else get_args(hint)
 
 
-def read_record(cls: type[_T], values: Any, name: str, arrays: Mapping[str, Any] | None = None, path: str = "") -> _T:
+def read_record(
+    cls: type[_T], values: object, name: str, arrays: Mapping[str, Array] | None = None, path: str = ""
+) -> _T:
     """Return a record of plain ``values`` and of ``arrays`` by field; what neither has is as by default.
 
     ``name`` is the file's, ``path`` leads to the record in it, such as "fit.".
@@ -113,7 +116,7 @@ def read_record(cls: type[_T], values: Any, name: str, arrays: Mapping[str, Any]
     arrays = arrays or {}
     if not isinstance(values, Mapping):
         raise refuse(f"{name}: {path[:-1]}", "a dictionary", repr(values)[:60], REPAIR)
-    found: dict[str, Any] = {}
+    found: JsonObject = {}
     for f in fields(cls):  # pyright: ignore[reportArgumentType]
         label, hint = path + f.name, _hints(cls)[f.name]
         record = next((one for one in _options(hint) if is_dataclass(one)), None)
@@ -134,7 +137,7 @@ def read_record(cls: type[_T], values: Any, name: str, arrays: Mapping[str, Any]
     return cls(**found)
 
 
-def _read_value(hint: Any, value: Any, label: str) -> Any:
+def _read_value(hint: object, value: Any, label: str) -> Any:
     """``value`` as one of the types of ``hint``; a number that was not finite is NaN."""
     if value is None and NoneType in _options(hint):
         return None
@@ -156,7 +159,7 @@ def _read_value(hint: Any, value: Any, label: str) -> Any:
     raise refuse(label, str(hint), repr(value)[:60], REPAIR)
 
 
-def _config(values: Any) -> Config | None:
+def _config(values: JsonObject | None) -> Config | None:
     """The configuration of plain values; ``None`` where they name what only the user's own code has."""
     try:
         return None if values is None else from_dict(values)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse
+from kfmaps._arrays import Array, check, refuse
 from kfmaps.io.text import REPAIR
 
 Size = int | str | None
@@ -105,7 +104,7 @@ def check_map(
     return _vertex_numbers(numbers, name, n_s, lost, "source vertices", remedy)
 
 
-def check_arrays(content: Mapping[str, Any], n_s: int | None, name: str) -> dict[str, Any]:
+def check_arrays(content: Mapping[str, Array], n_s: int | None, name: str) -> dict[str, Array]:
     """Return the arrays of a map file, ``content``, by the field of a match that each one holds.
 
     ``content``: names that no map file has are left out; ``n_s``: number of vertices of the source, where it is known;
@@ -114,7 +113,7 @@ def check_arrays(content: Mapping[str, Any], n_s: int | None, name: str) -> dict
     title = f"{name}: target_to_source"
     points = check_map(content["target_to_source"], n_s, name=title, lost=True)
     sizes = {"s": n_s, "t": len(points)}
-    found: dict[str, Any] = {"target_to_source": points}
+    found: dict[str, Array] = {"target_to_source": points}
     for key, kind in ARRAYS.items():
         if key in content and key != "target_to_source":
             found[kind.field] = kind.check(content[key], f"{name}: {key}", sizes)

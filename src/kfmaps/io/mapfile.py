@@ -10,7 +10,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import Array, refuse
 from kfmaps._memory import format_bytes
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
@@ -54,7 +54,7 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
     if suffix in (".txt", ".vts"):
         write_vertex_numbers(path, match.target_to_source, force=force)
         return
-    content: dict[str, Any] = {"summary": json.dumps(summarize_match(match))}
+    content: dict[str, Array] = {"summary": json.dumps(summarize_match(match))}
     content |= {name: value for name in ARRAYS if (value := _array(match, name)) is not None}
     # last, so that a file cut anywhere lacks the one array that must be there
     content["target_to_source"] = content.pop("target_to_source")
@@ -142,7 +142,7 @@ def _array(match: Match, name: str) -> np.ndarray | None:
     return None if value is None or len(value) == 0 else value
 
 
-def _npz_content(data: bytes, name: str) -> dict[str, Any]:
+def _npz_content(data: bytes, name: str) -> dict[str, Array]:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         items = archive.infolist()
         # What an archive unpacks to may be a thousand times its size: what it declares is looked at first.
@@ -157,8 +157,8 @@ def _npz_content(data: bytes, name: str) -> dict[str, Any]:
     return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}
 
 
-def _mat_content(data: bytes, name: str) -> dict[str, Any]:
-    content: dict[str, Any] = dict(read_mat(data, name, 8 * _LARGEST))
+def _mat_content(data: bytes, name: str) -> dict[str, Array]:
+    content: dict[str, Array] = dict(read_mat(data, name, 8 * _LARGEST))
     for key, array in ARRAYS.items():
         value = content.get(key)
         if not isinstance(value, np.ndarray):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,7 +25,10 @@ LOST_GREY = 160 / 255
 
 
 def transfer(
-    values_s: ArrayLike, target_to_source: ArrayLike | Match, faces_s: np.ndarray | None = None, lost: object = None
+    values_s: ArrayLike,
+    target_to_source: ArrayLike | Match,
+    faces_s: np.ndarray | None = None,
+    lost: ArrayLike | None = None,
 ) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target, as :func:`kfmaps.transfer` does.
 
@@ -60,7 +62,7 @@ def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | No
     return np.where((~finite & counted).any(axis=1), values[nearest], mixed).astype(values.dtype)
 
 
-def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any) -> np.ndarray:
+def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: ArrayLike | None) -> np.ndarray:
     """Put ``lost``, by default that of :func:`transfer`, into the rows ``gone (n,)`` of ``values (n, ...)``."""
     if not gone.any():
         return values
@@ -73,7 +75,7 @@ def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any) -> np.ndarray:
     return values
 
 
-def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: object = None) -> np.ndarray:
+def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: ArrayLike | None = None) -> np.ndarray:
     """Carry values from the vertices of the target to those of the source, (n_t, ...) to (n_s, ...).
 
     Each source vertex takes those of its own place on the target. ``lost`` is as for :func:`transfer`.

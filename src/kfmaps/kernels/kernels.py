@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -38,7 +38,7 @@ class _Resolvable(Protocol):
         ...
 
 
-KernelLike = Kernel | Callable[[Any, Any], Any]
+KernelLike = Kernel | Callable[[Array, Array], Array]
 
 
 def _squared_distances(X: Array, Y: Array) -> Array:

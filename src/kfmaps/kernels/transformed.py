@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
@@ -156,7 +156,7 @@ def forward(layers: tuple[Array, ...], X: Array) -> Array:
     return X
 
 
-def _matrix(values: Any, name: str, ndim: int | None = None) -> np.ndarray:
+def _matrix(values: Array, name: str, ndim: int | None = None) -> np.ndarray:
     """``values`` as a finite array of one or two dimensions."""
     wanted = "a list of numbers, or lists of equally many" if ndim is None else "lists of equally many numbers"
     try:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from pathlib import Path
-from typing import Any
 
 import torch
 from matplotlib.figure import Figure
 
 from kfmaps._arrays import refuse
-from kfmaps._records import short_repr
+from kfmaps._records import JsonObject, short_repr
 from kfmaps.io import atomic_output
 from kfmaps.settings.merge import FORMAT, read_learned
 from kfmaps.viz.curves import COLORS
@@ -67,7 +66,7 @@ class State:
         return min(self.history, key=lambda epoch: epoch.held_out)
 
 
-def save(path: str | Path, state: State, settings: str, request: dict[str, Any]) -> None:
+def save(path: str | Path, state: State, settings: str, request: JsonObject) -> None:
     """Write a state, its settings and the request that it answers.
 
     Parameters
@@ -93,7 +92,7 @@ def save(path: str | Path, state: State, settings: str, request: dict[str, Any])
         torch.save(content, temporary)
 
 
-def load(path: str | Path) -> tuple[State, str, dict[str, Any]]:
+def load(path: str | Path) -> tuple[State, str, JsonObject]:
     """Return the state, settings and request of the file ``path`` that :func:`save` wrote.
 
     Only tensors and plain values are read (``weights_only``): a file with anything else is refused.

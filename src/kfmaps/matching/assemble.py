@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -149,7 +149,7 @@ def assemble(
     return FitProblem(config, shapes, small, features.kernel, descriptors, features, multiplications, orientations)
 
 
-def _term_name(factory: Any) -> str:
+def _term_name(factory: object) -> str:
     """Return the name of a term of the user's own in tables of energies: that of its function or class."""
     return getattr(factory, "__name__", type(factory).__name__)
 

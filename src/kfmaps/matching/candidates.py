@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
+from kfmaps._arrays import Array
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest
@@ -57,7 +57,7 @@ def candidates(
     rng: int,
     *,
     landmarks: np.ndarray | None = None,
-    descriptors: tuple[Any, Any] | None = None,
+    descriptors: tuple[Array, Array] | None = None,
     report: Callable[[float], None] = lambda _done: None,
 ) -> list[Candidate]:
     """Return refined candidates, in no order.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -58,7 +57,7 @@ class SampledPair:
 
     shapes: tuple[Shape, Shape]
     landmarks: np.ndarray
-    descriptors: tuple[Any, Any] | None
+    descriptors: tuple[Array, Array] | None
 
 
 def sample_pair_for_fit(
@@ -66,7 +65,7 @@ def sample_pair_for_fit(
     target: Shape,
     count: int | None,
     landmarks: np.ndarray,
-    descriptors: tuple[Any, Any] | None = None,
+    descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator = 0,
 ) -> SampledPair:
     """Return ``count`` samples of both shapes, with the ``landmarks (l, 2)`` and the user's descriptors there."""
@@ -81,8 +80,8 @@ def sample_pair_for_fit(
 
 
 def user_descriptors(
-    source: Shape, target: Shape, config: DescriptorConfig, given: tuple[Any, Any] | None
-) -> tuple[Any, Any] | None:
+    source: Shape, target: Shape, config: DescriptorConfig, given: tuple[Array, Array] | None
+) -> tuple[Array, Array] | None:
     """Return the descriptors of both shapes that were ``given`` and those that ``config.extra`` computes."""
     if not config.extra:
         return given
@@ -94,7 +93,7 @@ def user_descriptors(
     return np.concatenate(sides[0], axis=1), np.concatenate(sides[1], axis=1)
 
 
-def _given_descriptors(values: Any, shape: Shape) -> np.ndarray:
+def _given_descriptors(values: Array, shape: Shape) -> np.ndarray:
     """Return descriptors of the user's own as numbers, checked."""
     values = np.asarray(to_numpy(values) if hasattr(values, "shape") else values, dtype=np.float64)
     n = len(shape.mesh.vertices)
@@ -108,7 +107,7 @@ def pair_descriptors(
     bases: tuple[Basis, Basis],
     config: DescriptorConfig,
     landmarks: np.ndarray,
-    given: tuple[Any, Any] | None,
+    given: tuple[Array, Array] | None,
 ) -> Descriptors:
     """Descriptors of both shapes as ``config`` asks.
 

@@ -6,11 +6,11 @@ What comes after it, points and their refinement, is in :mod:`kfmaps.matching.po
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from kfmaps._arrays import refuse, seed_of, to_numpy
+from kfmaps._arrays import Array, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
@@ -86,7 +86,7 @@ class FitPoints:
     weights: np.ndarray | None = None
 
 
-def check_landmark_pairs(landmarks: Any, source: Shape, target: Shape) -> np.ndarray:
+def check_landmark_pairs(landmarks: ArrayLike | None, source: Shape, target: Shape) -> np.ndarray:
     """``landmarks`` as ``(l, 2)`` int64 "source, target"; ``None`` is none.
 
     Raises
@@ -114,10 +114,10 @@ def fit(
     target: Shape,
     config: Config | None = None,
     *,
-    landmarks: Any = None,
-    descriptors: tuple[Any, Any] | None = None,
+    landmarks: ArrayLike | None = None,
+    descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator | None = 0,
-    start: Any = None,
+    start: Array | None = None,
     progress: Progress | None = None,
 ) -> Fit:
     """Fit a functional map to two prepared shapes as ``config`` says.
@@ -183,7 +183,7 @@ def fit_points(
     target: Shape,
     config: Config,
     landmarks: np.ndarray,
-    descriptors: tuple[Any, Any] | None = None,
+    descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator = 0,
 ) -> FitPoints:
     """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from kfmaps._arrays import seed_of
+from kfmaps._arrays import Array, seed_of
 from kfmaps._progress import Progress, StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
@@ -33,8 +33,8 @@ def match(
     target: Mesh | Shape,
     config: Config | None = None,
     *,
-    landmarks: Any = None,
-    descriptors: tuple[Any, Any] | None = None,
+    landmarks: ArrayLike | None = None,
+    descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
     probes: tuple[ShapeSamples, ShapeSamples] | None = None,
@@ -117,7 +117,7 @@ def _part_result(task: MatchTask, part: PartialMatch, partial: MatchPart) -> Mat
     )
 
 
-def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[Any, Any] | None) -> SearchResult:
+def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[Array, Array] | None) -> SearchResult:
     """The map of one fit, without a search."""
     shapes = task.shapes("preserving")
     one = fit(

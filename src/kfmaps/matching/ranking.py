@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -164,7 +163,7 @@ def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
     return replace(found, deformation_energy=one.energy, strain=one.strain, shot_error=None)
 
 
-def reference_values(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
+def reference_values(found: list[Candidate], of: Callable[[list[float]], float]) -> tuple[float, float]:
     """The strain and the mismatch of bent candidates that others are compared with: both depend on the shapes."""
     strains = [c.strain for c in found if c.strain is not None]
     shot_errors = [c.shot_error for c in found if c.shot_error is not None]

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse, to_numpy
+from kfmaps._arrays import Array, check, refuse, to_numpy
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.clean import CleanedMesh
 from kfmaps.matching.fit import check_landmark_pairs
@@ -29,7 +28,7 @@ class VertexReindexing:
         """Whether numbers are the same on both sides."""
         return self.part_s.whole and self.part_t.whole
 
-    def landmarks(self, given: Any) -> Any:
+    def landmarks(self, given: np.ndarray | None) -> np.ndarray | None:
         """Landmarks ``(l, 2)`` outside as those inside; ``None`` stays."""
         if given is None or self.open:
             return given
@@ -46,7 +45,7 @@ class VertexReindexing:
             columns.append(within)
         return np.stack(columns, axis=1)
 
-    def descriptors(self, given: tuple[Any, Any] | None) -> tuple[Any, Any] | None:
+    def descriptors(self, given: tuple[Array, Array] | None) -> tuple[Array, Array] | None:
         """Descriptors ``(n_s, d)``, ``(n_t, d)`` of the user's own, the rows of the vertices inside; ``None`` stays."""
         if given is None or self.open:
             return given

@@ -13,8 +13,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from kfmaps._arrays import refuse, seed_of, to_numpy
+from kfmaps._arrays import Array, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
@@ -126,8 +127,8 @@ def search_map(
     target: Shape,
     config: Config,
     *,
-    landmarks: Any = None,
-    descriptors: tuple[Any, Any] | None = None,
+    landmarks: ArrayLike | None = None,
+    descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
     probes: tuple[ShapeSamples, ShapeSamples] | None = None,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -36,7 +35,7 @@ class Minimised:
     energies: dict[str, float]
 
 
-def solve_problem(task: FitProblem, config: Config, report: Progress, start: Any = None) -> Minimised:
+def solve_problem(task: FitProblem, config: Config, report: Progress, start: Array | None = None) -> Minimised:
     """:func:`minimize_problem` from ``start`` where one is given, which is checked; told as the stage "solve"."""
     if start is not None:
         right = task.energy.rhs()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -14,7 +13,7 @@ from scipy.spatial import KDTree
 from kfmaps.geometry.arap import ArapEnergy, arap_rhs, build_arap, nearest_rotations, rotations
 from kfmaps.geometry.closest_points import ClosestPoints, closest_among
 from kfmaps.geometry.connectivity import VertexRings, component_labels, vertex_rings
-from kfmaps.geometry.eigen.factorization import Solve
+from kfmaps.geometry.eigen.factorization import Solve, SparseMatrix
 from kfmaps.geometry.mesh import Mesh, unit_rows, vertex_areas, vertex_normals
 
 NORMALS = 0.02
@@ -69,7 +68,7 @@ class DataTerm:
 
     weights: np.ndarray
     places: np.ndarray
-    rows: Any = None
+    rows: SparseMatrix = None
     normals: np.ndarray | None = None
 
     def at(self, x: np.ndarray) -> np.ndarray:
@@ -83,7 +82,7 @@ class DataTerm:
         return inside if self.rows is None else self._columns @ inside
 
     @cached_property
-    def _columns(self) -> Any:
+    def _columns(self) -> SparseMatrix:
         return self.rows.T
 
     def _shortened(self, z: np.ndarray) -> np.ndarray:

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -224,9 +223,9 @@ class MeshPair:
     target: Mesh
     areas_t: np.ndarray
     look_t: ClosestPointQuery
-    kept: dict[Any, np.ndarray] = field(default_factory=dict)  # what :meth:`once` has made
+    kept: dict[object, np.ndarray] = field(default_factory=dict)  # what :meth:`once` has made
 
-    def once(self, key: Any, make: Callable[[], np.ndarray]) -> np.ndarray:
+    def once(self, key: object, make: Callable[[], np.ndarray]) -> np.ndarray:
         """Return what ``make`` returns, made once for each ``key``: several fits begin alike, and some are repeated."""
         if key not in self.kept:
             self.kept[key] = make()

@@ -7,10 +7,9 @@ import pickle
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from kfmaps._arrays import InvalidInput, MissingDependency, refuse
-from kfmaps._records import walk
+from kfmaps._records import JsonObject, walk
 from kfmaps.config import KINDS, Config, from_dict
 
 SUFFIX = ".pt"
@@ -18,7 +17,7 @@ FORMAT = 1
 _WANTED, _REMEDY = "a file that kfmaps learn wrote", "check the path, or learn anew"
 
 
-def read_learned(path: str | Path) -> dict[str, Any]:
+def read_learned(path: str | Path) -> JsonObject:
     """What the file holds: tensors and plain values. Nothing in it is ever executed."""
     try:
         import torch

@@ -14,15 +14,17 @@ import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from kfmaps._records import JsonObject
+
 _UNSIGNED = (("uint8", "<u1"), ("uint16", "<u2"), ("uint32", "<u4"))
 
 
-def _record(array: np.ndarray, name: str, code: str) -> dict[str, Any]:
+def _record(array: np.ndarray, name: str, code: str) -> JsonObject:
     raw = np.ascontiguousarray(array, dtype=code).tobytes()
     return {"type": name, "shape": list(array.shape), "base64": base64.b64encode(raw).decode("ascii")}
 
 
-def encode_integers(numbers: np.ndarray) -> dict[str, Any]:
+def encode_integers(numbers: np.ndarray) -> JsonObject:
     """Encode whole numbers from 0 up, in the smallest of one, two or four bytes each that holds them all."""
     numbers = np.asarray(numbers)
     largest = int(numbers.max(initial=0))
@@ -30,7 +32,7 @@ def encode_integers(numbers: np.ndarray) -> dict[str, Any]:
     return _record(numbers, name, code)
 
 
-def encode_floats(values: np.ndarray) -> dict[str, Any]:
+def encode_floats(values: np.ndarray) -> JsonObject:
     """Encode real numbers as two-byte steps between their least and greatest, off by 1/131068 of that range at most.
 
     NaN and infinities become one reserved code, which the page reads as "not known".

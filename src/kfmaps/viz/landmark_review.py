@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._records import JsonObject
 from kfmaps.batch.landmark_tables import read_corrections, read_study, write_corrections, write_study
 from kfmaps.batch.transfer_landmarks import CHECKED, CORRECTED, SpecimenLandmarks, correct_landmarks
 from kfmaps.fmap.precise import PointMap, point_positions
@@ -65,10 +65,10 @@ class ReviewServer:
         }
         return page_reply(document("review.html.j2", title=f"Landmarks: {one.specimen}", data=data, connect=True))
 
-    def _save(self, request: Any) -> Reply:
+    def _save(self, request: JsonObject) -> Reply:
         """Take corrections of one specimen into the study's tables."""
         study, suffix = read_study(self.study)
-        name = request.get("specimen") if isinstance(request, dict) else None
+        name = request.get("specimen")
         at = next((i for i, one in enumerate(study) if one.specimen == name and not one.misfit), None)
         if at is None:
             raise refuse("specimen", "one of the study", repr(name), "reload the page")

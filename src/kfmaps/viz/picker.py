@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._records import JsonObject
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, save_map, write_landmarks
@@ -25,13 +25,12 @@ _Matcher = Callable[[np.ndarray, Progress], Match]
 _LONGEST_NAME = 60  # letters of a landmark's name
 
 
-def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
+def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each."""
     remedy = "give pairs of 0-based vertex numbers, source first"
-    whole = isinstance(pairs, list) and all(
+    if not isinstance(pairs, list) or not all(
         isinstance(pair, list) and len(pair) == 2 and all(type(v) is int for v in pair) for pair in pairs
-    )
-    if not whole:
+    ):
         raise refuse("landmarks", "a list of pairs of whole numbers", "something else", remedy)
     for pair in pairs:
         for vertex, mesh, name in zip(pair, (source, target), ("source", "target"), strict=True):
@@ -46,12 +45,15 @@ def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def _check_names(names: Any, count: int) -> list[str]:
+def _is_name(name: object) -> bool:
+    return isinstance(name, str) and len(name) <= _LONGEST_NAME
+
+
+def _check_names(names: object, count: int) -> list[str]:
     """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
     if names is None:
         return [""] * count
-    fits = isinstance(names, list) and len(names) == count
-    if not fits or not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in names):
+    if not isinstance(names, list) or len(names) != count or not all(map(_is_name, names)):
         wanted = f"{count} texts of at most {_LONGEST_NAME} letters"
         raise refuse("names", wanted, "something else", "give one for each pair")
     return names
@@ -130,11 +132,11 @@ class PickerServer:
         told = {"verdict": found.verdict, "confidence": found.confidence, "landmarks": len(pairs)}
         return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict_record(told)}
 
-    def _pairs(self, request: Any) -> np.ndarray:
-        pairs = request.get("pairs") if isinstance(request, dict) else None
+    def _pairs(self, request: JsonObject) -> np.ndarray:
+        pairs = request.get("pairs")
         return check_pairs(pairs, self.picker.source, self.picker.target)
 
-    def _write(self, path: Path, request: Any, write: Callable[[bool], None], **told: object) -> Reply:
+    def _write(self, path: Path, request: JsonObject, write: Callable[[bool], None], **told: object) -> Reply:
         # What this picker wrote itself it may replace; what was there before only when told to.
         allowed = self.picker.force or path in self._written or request.get("overwrite") is True
         if path.exists() and not allowed:
@@ -143,7 +145,7 @@ class PickerServer:
         self._written.add(path)
         return json_reply({"saved": str(path), **told})
 
-    def _save(self, request: Any) -> Reply:
+    def _save(self, request: JsonObject) -> Reply:
         pairs, path = self._pairs(request), self.picker.output
         names = _check_names(request.get("names"), len(pairs))
 
@@ -152,13 +154,13 @@ class PickerServer:
 
         return self._write(path, request, write, count=len(pairs))
 
-    def _save_map(self, request: Any) -> Reply:
-        path, run = self.picker.map_output, request.get("run") if isinstance(request, dict) else None
+    def _save_map(self, request: JsonObject) -> Reply:
+        path, run = self.picker.map_output, request.get("run")
         if path is None or type(run) is not int or not 0 <= run < len(self._maps):
             raise refuse("map", "the number of a run that is done", repr(run), "match first")
         return self._write(path, request, lambda force: save_map(path, self._maps[run], force))
 
-    def _match(self, request: Any) -> Reply:
+    def _match(self, request: JsonObject) -> Reply:
         if self.picker.matcher is None:
             raise refuse("match", "a picker that can match", "one that cannot", "save and use kfmaps match")
         return json_reply(asdict(self.runs.start(self._pairs(request))))

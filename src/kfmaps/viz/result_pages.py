@@ -6,10 +6,10 @@ import tempfile
 import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from kfmaps._records import JsonObject
 from kfmaps.cli.evaluation import Truth
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
@@ -28,7 +28,7 @@ _EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
 _MOST_TEXELS = 2048  # longer side of the largest picture of a texture in a page.
 
 
-def _match_summary(match: Match) -> dict[str, Any]:
+def _match_summary(match: Match) -> JsonObject:
     """Return what a page tells of a match: settings, energies, residuals, times, outcome."""
     fit, config = match.fit, getattr(match, "config", None)
     told = {

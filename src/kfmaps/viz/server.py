@@ -16,13 +16,14 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
 from http.client import responses
-from typing import Any, cast
+from typing import cast
 
 from tornado.http1connection import HTTP1Connection
 from tornado.httpserver import HTTPServer
 from tornado.web import Application, RequestHandler
 
 from kfmaps._arrays import InvalidInput, refuse
+from kfmaps._records import JsonObject
 from kfmaps.viz.document import to_json
 
 _LOOPBACK = "127.0.0.1"
@@ -60,7 +61,7 @@ def json_reply(data: object, status: int = 200) -> Reply:
     return Reply(status, "application/json", json.dumps(to_json(data), allow_nan=False).encode())
 
 
-_Routes = Mapping[tuple[str, str], Callable[[Any], Reply]]
+_Routes = Mapping[tuple[str, str], Callable[[JsonObject], Reply]]
 """(method, name below the token) to a function of the request's JSON (``None`` for GET)."""
 
 
@@ -148,7 +149,7 @@ class _Handler(RequestHandler):
         if route is None:
             return json_reply({"error": "there is nothing here"}, 404)
         try:
-            return route(self._json() if method == "POST" else None)
+            return route(self._json() if method == "POST" else {})
         except InvalidInput as error:
             return json_reply({"error": str(error)}, 400)
         except OSError as error:
@@ -174,12 +175,13 @@ class _Handler(RequestHandler):
         wanted = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
         return all(self.request.headers.get(name) == value for name, value in wanted.items())
 
-    def _json(self) -> Any:
+    def _json(self) -> JsonObject:
         # A plain form of another site cannot send this type without asking first.
         kind = self.request.headers.get("Content-Type", "none").partition(";")[0].strip().lower()
         if kind != "application/json":
             raise refuse("request", "JSON", kind, "send application/json")
         try:
-            return json.loads(self.request.body)
+            told = json.loads(self.request.body)
         except (ValueError, RecursionError) as error:
             raise refuse("request", "JSON", "something else", "send application/json") from error
+        return told if isinstance(told, dict) else {}

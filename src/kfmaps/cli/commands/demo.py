@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
@@ -13,6 +13,7 @@ from rich.table import Table
 
 from kfmaps import datasets
 from kfmaps._arrays import refuse
+from kfmaps._records import JsonObject
 from kfmaps._threads import one_blas_thread
 from kfmaps.cli.options import Force, Json
 from kfmaps.cli.progress import Stages
@@ -98,7 +99,7 @@ def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[Example
     return pair, farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
 
 
-def _table(name: str, sizes: dict[str, int], methods: list[dict[str, Any]]) -> Table:
+def _table(name: str, sizes: dict[str, int], methods: list[JsonObject]) -> Table:
     n_s, n_t = sizes.values()
     table = Table(
         title=f"{name}: {n_s:,} and {n_t:,} vertices, meshed independently",
@@ -118,7 +119,7 @@ def _table(name: str, sizes: dict[str, int], methods: list[dict[str, Any]]) -> T
 
 def _compare(
     shape: str, vertices: int, landmarks: int, seed: int, *, quiet: bool = False
-) -> tuple[ExamplePair, list[dict[str, Any]]]:
+) -> tuple[ExamplePair, list[JsonObject]]:
     """Match a pair automatically, then with landmarks with a kernel and without (NO17).
 
     The last two get the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors are in

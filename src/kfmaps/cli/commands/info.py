@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, shown
+from kfmaps._records import JsonObject
 from kfmaps.cli.options import Json
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.geometry.mesh import surface_area
@@ -30,7 +31,7 @@ _DEFECTS = (
 )
 
 
-def description(path: str | Path, content: MeshFile) -> dict[str, Any]:
+def description(path: str | Path, content: MeshFile) -> JsonObject:
     """What ``kfmaps info --json`` prints: sizes, extent, topology (None for a point cloud), colours."""
     mesh = content.mesh
     surface = len(mesh.faces) > 0
@@ -47,7 +48,7 @@ def description(path: str | Path, content: MeshFile) -> dict[str, Any]:
     }
 
 
-def _rows(facts: dict[str, Any]) -> list[tuple[str, str]]:
+def _rows(facts: JsonObject) -> list[tuple[str, str]]:
     """Names and values of the table."""
     counts = facts["topology"]
     extra = [k.replace("_", " ") for k in ("colors", "texture_coordinates") if facts[k]]
@@ -101,13 +102,13 @@ def info(
         raise InvalidInput(refused[0] + more)
 
 
-def _facts(path: Path) -> dict[str, Any]:
+def _facts(path: Path) -> JsonObject:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # the table says it all
         return description(path, read_mesh_file(path))
 
 
-def _overview(known: list[dict[str, Any]]) -> Table:
+def _overview(known: list[JsonObject]) -> Table:
     """A row for each file."""
     table = Table()
     for name in ("file", "vertices", "faces", "area", "components", "genus", "defects"):
@@ -127,5 +128,5 @@ def _overview(known: list[dict[str, Any]]) -> Table:
     return table
 
 
-def _defects(counts: dict[str, Any]) -> list[str]:
+def _defects(counts: JsonObject) -> list[str]:
     return [f"{counts[k]:,} {k.replace('_', ' ')}" for k in _DEFECTS if counts[k]]

@@ -7,12 +7,13 @@ from dataclasses import replace
 from fnmatch import fnmatch
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import typer
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps._records import JsonObject
 from kfmaps.batch.layout import Pair, ShapeFolder, find_collection
 from kfmaps.cli.options import Identity, Json, Quiet
 from kfmaps.cli.progress import Stages
@@ -175,7 +176,7 @@ def _numbers(assignments: list[str]) -> dict[str, int | float]:
     return numbers
 
 
-def _number(name: str, text: str, kind: type) -> Any:
+def _number(name: str, text: str, kind: type) -> int | float:
     try:
         return kind(text)
     except ValueError as error:
@@ -262,7 +263,7 @@ def _preparation(
     return prepared
 
 
-def _continued(path: Path, request: dict[str, Any]) -> State:
+def _continued(path: Path, request: JsonObject) -> State:
     """Return the state that an earlier run with the same request left."""
     from kfmaps.learn import load
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, diags_array
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from kfmaps._arrays import NotConverged
 
@@ -34,7 +34,7 @@ def fill_order(matrix: SparseMatrix) -> np.ndarray | None:
         return None
     import pymetis
 
-    graph: Any = csr_array(matrix, copy=True)
+    graph: SparseMatrix = csr_array(matrix, copy=True)
     graph.setdiag(0)
     graph.eliminate_zeros()
     order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(graph.indptr, graph.indices))
@@ -93,7 +93,7 @@ class ShiftedFactorizer:
         return base, places
 
 
-def _factor(matrix: SparseMatrix, ordered: bool) -> Any:
+def _factor(matrix: SparseMatrix, ordered: bool) -> SuperLU:
     try:
         return splu(
             csc_array(matrix),
@@ -105,7 +105,7 @@ def _factor(matrix: SparseMatrix, ordered: bool) -> Any:
         raise NotConverged(f"factorisation: {error}. The mesh has parts without area or stiffness.") from error
 
 
-def _solver(factor: Any, precision: np.dtype, each: Map) -> Solve:
+def _solver(factor: SuperLU, precision: np.dtype, each: Map) -> Solve:
     def solve(block: np.ndarray) -> np.ndarray:
         right = np.asfortranarray(block, dtype=precision)
         parts = [right[:, start : start + _COLUMNS] for start in range(0, right.shape[1], _COLUMNS)]
