@@ -948,6 +948,15 @@ MUTANTS = tuple(
         ),
         ("x, hold * stiffness, fading)", "x, hold, fading)", "test_landmark_evidence -k far_off"),
         ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
+        # faces turned outward
+        ("volume < -_MIN_VOLUME * areas.sum() ** 1.5", "volume < 0", "test_face_orientation -k without_an_inside"),
+        ("np.cross(ends, middles[loop])", "np.cross(ends, 0 * middles[loop])", "test_face_orientation -k open_box"),
+        ("np.where(result, areas, -areas)", "np.where(result, areas, 0)", "test_face_orientation -k open_sheet"),
+        (
+            "turned[places.faces][:, None], weights[:, ::-1], weights",
+            "False, 0, weights",
+            "test_face_orientation -k some",
+        ),
         # the time that a batch still takes
         ("heapq.heapreplace(free, free[0] + seconds)", "heapq.heapreplace(free, seconds)", "test_batch_found -k time"),
         ("max(lasts[number] - seconds, lasts[number] / 2)", "lasts[number] - seconds", "test_batch_found -k time"),

@@ -19,7 +19,7 @@ from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
-from kfmaps.geometry.clean import CleanedMesh, clean_mesh
+from kfmaps.geometry.clean import CleanedMesh, clean_mesh, face_outward
 from kfmaps.geometry.cloud_surface import surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
@@ -117,11 +117,11 @@ def sample_shape(
 
 
 def clean_shape(shape: Shape) -> tuple[Shape, CleanedMesh]:
-    """``shape`` with each place once, without unused vertices and specks, and how its vertices are numbered.
+    """``shape`` with each place once, faces outward, without unused vertices and specks, and how it is numbered.
 
     A match works on that; a shape that has nothing of the kind is returned as it is.
     """
-    part = clean_mesh(shape.mesh, specks=True)
+    part = face_outward(clean_mesh(shape.mesh, specks=True))
     if part.whole:
         return (shape if part.mesh is shape.mesh else replace(shape, mesh=part.mesh)), part
     kept, basis = part.to_original, shape.basis
@@ -135,13 +135,13 @@ def prepare(
 ) -> Shape:
     """Do the work that depends on one shape alone, so that matching it with many others reuses it.
 
-    ``mesh``: In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, specks
-    and vertices that no face uses are left out (:func:`kfmaps.geometry.clean.clean_mesh`), with a warning. ``config``:
-    its basis, descriptor and refinement settings count here.
+    ``mesh``: In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, faces
+    that look inward are turned, second sides of faces, specks and vertices that no face uses are left out
+    (:mod:`kfmaps.geometry.clean`), with a warning. ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
-    part = clean_mesh(check_mesh(mesh, name, cloud=True), specks=True)
+    part = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud = len(mesh.faces) == 0
     small = unit_area(part.mesh)
     wanted = config.n_eigenfunctions
@@ -242,10 +242,13 @@ def _placed(mesh: Mesh, part: CleanedMesh, small: Mesh) -> Mesh:
 
 
 def _tell(part: CleanedMesh, name: str) -> None:
-    """One warning of what is connected or left out."""
+    """One warning of what is connected, left out or turned."""
     what = "points in one place count as one" if len(part.mesh.faces) == 0 else "vertices on seams are connected"
     told = [f"{part.n_welded} {what}"] * bool(part.n_welded)
     told += [f"{part.specks} specks are left out"] * bool(part.specks)
+    told += [f"{part.doubled} second sides of faces are left out"] * bool(part.doubled)
+    if part.turned is not None:
+        told.append(f"{part.turned.sum()} of {len(part.turned)} faces are turned outward")
     if told:
         warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)
 

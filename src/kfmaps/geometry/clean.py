@@ -6,16 +6,19 @@ vertices that no face uses, and specks that float beside the surface. A :class:`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.connectivity import boundary_edges, component_labels, proper_faces, unique_vertices
+from kfmaps.geometry.face_orientation import doubled_faces, inward_faces
 from kfmaps.geometry.mesh import Mesh, face_areas
 
 _MAX_SPECK_AREA = 0.005
 """Area of a component, over that of the largest, below which it is a speck: what one of 200 samples stands for."""
+_MANY_DOUBLED = 0.05
+"""Share of doubled faces above which they are second sides: every face of a two-sided export has one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +32,8 @@ class CleanedMesh:
     faces_to_original: np.ndarray  # (g,): original number of each face, ascending
     n_welded: int = 0  # how many original vertices count as one with an earlier one
     specks: int = 0  # components left out
+    doubled: int = 0  # faces left out that lie on another one
+    turned: np.ndarray | None = None  # (g,): faces whose corners run the other way than in the original; None: no face
 
     @property
     def whole(self) -> bool:
@@ -102,6 +107,23 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
     if not used.all() and len(kept):
         number[~used] = KDTree(mesh.vertices[kept]).query(mesh.vertices[~used])[1]
     return CleanedMesh(Mesh(mesh.vertices[kept], faces), kept, number, ~used, left, joined, gone)
+
+
+def face_outward(part: CleanedMesh) -> CleanedMesh:
+    """Return a cleaned mesh without the second sides of two-sided faces, all of its faces looking outward.
+
+    Doubled faces are left out where they are many; a few are folds of a closed surface. Where a surface is open, which
+    side is outward is not known, and most of its area keeps its side (:func:`~.face_orientation.inward_faces`).
+    """
+    faces, originals = part.mesh.faces, part.faces_to_original
+    doubled = doubled_faces(faces)
+    if doubled.mean() > _MANY_DOUBLED:
+        faces, originals = faces[~doubled], originals[~doubled]
+        part = replace(part, mesh=Mesh(part.mesh.vertices, faces), faces_to_original=originals, doubled=doubled.sum())
+    turned = inward_faces(part.mesh)
+    if not turned.any():
+        return part
+    return replace(part, mesh=Mesh(part.mesh.vertices, np.where(turned[:, None], faces[:, ::-1], faces)), turned=turned)
 
 
 def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:

@@ -71,8 +71,10 @@ class VertexReindexing:
 
     def place(self, places: PointMap) -> PointMap:
         """Points in triangles inside as such outside."""
-        faces = self.part_s.faces_to_original[places.faces]
-        return PointMap(faces[self.part_t.to_clean], places.weights[self.part_t.to_clean])
+        faces, weights, turned = self.part_s.faces_to_original[places.faces], places.weights, self.part_s.turned
+        if turned is not None:
+            weights = np.where(turned[places.faces][:, None], weights[:, ::-1], weights)
+        return PointMap(faces[self.part_t.to_clean], weights[self.part_t.to_clean])
 
     def bent(self, vertices: np.ndarray) -> np.ndarray:
         """Positions on the target of the source's vertices inside (m_s, 3), as outside (n_s, 3): in its unit there."""

@@ -1,0 +1,204 @@
+"""Meshes damaged as scans and exports are, matched with clean ones: errors and verdicts.
+
+    python benchmarks/damaged.py --data DIR [--sets FAUST_r,TOSCA_r] [--half report] [--pairs 2] [--damage floor,spikes]
+
+Each target is damaged in one way at a time; "clean" is the map without damage. Errors are mean geodesic distances on
+the source × 100, of the vertices with a truth, each at the damaged mesh's nearest vertex. DIR is as for
+benchmarks/automatic.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import igl
+import numpy as np
+from automatic import Job, loaded
+from scatter import chosen_pairs
+from scipy.spatial import KDTree
+from shapes import bumpy_sphere
+
+import kfmaps
+from kfmaps.geometry.mesh import Mesh, unit_area
+
+#: A damaged mesh, and where each of its vertices was before (n, 3); NaN for vertices that are no part of the shape.
+Damaged = tuple[Mesh, np.ndarray]
+
+
+def _with_pieces(mesh: Mesh, pieces: list[Mesh]) -> Damaged:
+    """The mesh with loose pieces after it."""
+    starts = np.cumsum([len(mesh.vertices), *(len(piece.vertices) for piece in pieces)])[:-1]
+    vertices = np.concatenate([mesh.vertices, *(piece.vertices for piece in pieces)])
+    faces = np.concatenate([mesh.faces, *(p.faces + start for p, start in zip(pieces, starts, strict=True))])
+    before = vertices.copy()
+    before[len(mesh.vertices) :] = np.nan
+    return Mesh(vertices, faces), before
+
+
+def _noisy(amount: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    return lambda mesh, rng: (
+        Mesh(mesh.vertices + amount * rng.normal(size=mesh.vertices.shape), mesh.faces),
+        mesh.vertices,
+    )
+
+
+def _decimated(count: int, stretch: float = 1.0) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    """About ``count`` vertices; triangles are long along the second axis with a small ``stretch``."""
+
+    def damage(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+        axes = np.array([1.0, stretch, 1.0])
+        given = np.asfortranarray(mesh.vertices * axes), np.asfortranarray(mesh.faces, dtype=np.int32)
+        vertices, faces = (np.asarray(found) for found in igl.qslim(*given, 2 * count)[:2])
+        if len(faces) == 0:
+            return mesh, mesh.vertices  # what libigl does not decimate: a surface that is no manifold
+        return Mesh(vertices / axes, faces), vertices / axes
+
+    return damage
+
+
+def _soup(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+    """Each triangle with three vertices of its own, as flat shading leaves them."""
+    vertices = mesh.vertices[mesh.faces.ravel()]
+    return Mesh(vertices, np.arange(len(vertices)).reshape(-1, 3)), vertices
+
+
+def _half_refined(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+    """Triangles above the middle of the longest axis divided into sixteen, with T-junctions at the border."""
+    axis = np.argmax(np.ptp(mesh.vertices, axis=0))
+    middle = np.median(mesh.vertices[:, axis])
+    upper = mesh.vertices[mesh.faces][:, :, axis].mean(axis=1) > middle
+    fine, faces = (np.asarray(found) for found in igl.upsample(mesh.vertices, mesh.faces[upper], 2))
+    return Mesh(fine, np.concatenate([mesh.faces[~upper], faces])), fine
+
+
+def _turned_over(share: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    def damage(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+        faces = mesh.faces.copy()
+        which = rng.random(len(faces)) < share
+        faces[which] = faces[which][:, ::-1]
+        return Mesh(mesh.vertices, faces), mesh.vertices
+
+    return damage
+
+
+def _two_sided(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+    return Mesh(mesh.vertices, np.concatenate([mesh.faces, mesh.faces[:, ::-1]])), mesh.vertices
+
+
+def _spikes(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+    vertices = mesh.vertices.copy()
+    vertices[rng.choice(len(vertices), 20, replace=False)] += 0.1 * rng.normal(size=(20, 3))
+    return Mesh(vertices, mesh.faces), mesh.vertices
+
+
+def _holes(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+    """Ten round holes, each of about half a per cent of the area."""
+    away = kfmaps.geodesic_distances(mesh, rng.choice(len(mesh.vertices), 10, replace=False)).min(axis=0)
+    return Mesh(mesh.vertices, mesh.faces[(away[mesh.faces] > np.sqrt(0.005 / np.pi)).all(axis=1)]), mesh.vertices
+
+
+def _bad_edges(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+    """A hundred triangles that stand on an edge of the surface."""
+    which = rng.choice(len(mesh.faces), 100, replace=False)
+    corners = mesh.vertices[mesh.faces[which]]
+    tips = corners.mean(axis=1) + 0.02 * rng.normal(size=(100, 3))
+    new = len(mesh.vertices) + np.arange(100)
+    faces = np.concatenate([mesh.faces, np.column_stack([mesh.faces[which, :2], new])])
+    return Mesh(np.concatenate([mesh.vertices, tips]), faces), np.concatenate(
+        [mesh.vertices, np.full((100, 3), np.nan)]
+    )
+
+
+def _specks(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+    """Forty loose spheres around the shape, and two larger ones inside, as eyes are."""
+    ball = bumpy_sphere(60)
+    around = mesh.vertices[rng.choice(len(mesh.vertices), 42, replace=False)]
+    sizes = np.r_[np.full(40, 0.01), 0.06, 0.06]
+    offsets = np.r_[0.15 * rng.normal(size=(40, 3)), np.zeros((2, 3))]
+    pieces = [Mesh(s * ball.vertices + a + o, ball.faces) for s, a, o in zip(sizes, around, offsets, strict=True)]
+    return _with_pieces(mesh, pieces)
+
+
+def _floor(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+    """A square of a third of the area below the shape, as the floor of a scan."""
+    axis = int(np.argmax(np.ptp(mesh.vertices, axis=0)))
+    steps = np.linspace(-0.29, 0.29, 21)
+    u, v = (grid.ravel() for grid in np.meshgrid(steps, steps))
+    vertices = np.insert(np.column_stack([u, v]), axis, mesh.vertices[:, axis].min() - 0.001, axis=1)
+    vertices += mesh.vertices.mean(axis=0) * (np.arange(3) != axis)
+    corner = (np.arange(20)[:, None] * 21 + np.arange(20)).ravel()
+    quads = np.column_stack([corner, corner + 1, corner + 22, corner + 21])
+    return _with_pieces(mesh, [Mesh(vertices, np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]]))])
+
+
+def _far_away(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+    """In thousandths of a unit, a hundred shapes' lengths from the origin, turned."""
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    vertices = 0.001 * (mesh.vertices @ turn + 100)
+    return Mesh(vertices, mesh.faces), mesh.vertices
+
+
+DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
+    "clean": lambda mesh, _rng: (mesh, mesh.vertices),
+    "noise 0.3 %": _noisy(0.003),
+    "noise 1 %": _noisy(0.01),
+    "1000 vertices": _decimated(1000),
+    "500 vertices": _decimated(500),
+    "long triangles": _decimated(3000, 0.1),
+    "soup": _soup,
+    "half refined": _half_refined,
+    "inside out": _turned_over(1.0),
+    "tenth turned": _turned_over(0.1),
+    "two-sided": _two_sided,
+    "spikes": _spikes,
+    "holes": _holes,
+    "bad edges": _bad_edges,
+    "specks": _specks,
+    "floor": _floor,
+    "far away": _far_away,
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--sets", default="FAUST_r,SHREC19_r,TOSCA_r,SMAL_r")
+    parser.add_argument("--half", choices=("choice", "report"), default="report")
+    parser.add_argument("--pairs", type=int, default=1, help="of each set")
+    parser.add_argument("--damage", default=",".join(DAMAGES))
+    arguments = parser.parse_args()
+    config = replace(kfmaps.Config(), threads=1)
+    print(f"{'pair':34}{'damage':16}{'vertices':>9}{'error':>7}  {'verdict':11}{'told':>6}{'CPU s':>7}  warnings")
+    for kind in arguments.sets.split(","):
+        for pair in chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1):
+            source, target, true_s, true_t = loaded(Job(arguments.data, kind, *pair))
+            source, target = unit_area(source), unit_area(target)
+            for name in arguments.damage.split(","):
+                damaged, before = DAMAGES[name](target, np.random.default_rng(0))
+                of_shape = np.flatnonzero(np.isfinite(before[:, 0]))
+                places = of_shape[np.asarray(KDTree(before[of_shape]).query(target.vertices[true_t])[1])]
+                begun = time.process_time()
+                with warnings.catch_warnings(record=True) as told:
+                    warnings.simplefilter("always")
+                    found = kfmaps.match(source, damaged, config)
+                seconds = time.process_time() - begun
+                images = found.target_to_source[places]
+                kept = images >= 0
+                error = 100 * float(kfmaps.geodesic_errors(source, images[kept], true_s[kept]).mean())
+                missing = "" if kept.all() else f"{100 * np.mean(~kept):.0f} % without a counterpart; "
+                print(
+                    f"{f'{kind} {pair[0]} {pair[1]}':34}{name:16}{len(damaged.vertices):9,}{error:7.2f}  "
+                    f"{found.verdict:11}{found.confidence or 0.0:6.2f}{seconds:7.1f}  {missing}"
+                    + "; ".join(str(one.message)[:60] for one in told),
+                    flush=True,
+                )
+
+
+if __name__ == "__main__":
+    main()

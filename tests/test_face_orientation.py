@@ -1,0 +1,117 @@
+"""Files with faces turned over, some or all of them, or each face twice, are matched as the surface that they show."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+import kfmaps
+from conftest import fibonacci_sphere
+from kfmaps import datasets
+from kfmaps._arrays import KfmapsWarning
+from kfmaps.fmap.precise import point_positions
+from kfmaps.geometry.clean import clean_mesh, face_outward
+from kfmaps.geometry.face_orientation import _enclosed_volume, _rim_and_agreement, doubled_faces, inward_faces
+from kfmaps.geometry.mesh import Mesh, face_normals
+
+GUARDS = ("kfmaps.geometry.face_orientation",)
+CONFIG = replace(kfmaps.Config(), threads=1)
+
+
+@pytest.fixture
+def sphere() -> Mesh:
+    return fibonacci_sphere(600)
+
+
+def looks_outward(mesh: Mesh) -> np.ndarray:
+    """Which faces of a surface around the origin look away from it."""
+    return (face_normals(mesh) * mesh.vertices[mesh.faces].mean(axis=1)).sum(axis=1) > 0
+
+
+def turned_over(mesh: Mesh, which: np.ndarray) -> Mesh:
+    return Mesh(mesh.vertices, np.where(which[:, None], mesh.faces[:, ::-1], mesh.faces))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.4, 0.7, 1.0])
+def test_all_faces_of_a_closed_surface_are_made_to_look_outward(sphere, rng, share):
+    which = rng.random(len(sphere.faces)) < share
+    given = turned_over(sphere, which)
+    np.testing.assert_array_equal(inward_faces(given), which)
+    assert looks_outward(face_outward(clean_mesh(given)).mesh).all()
+
+
+def test_a_surface_that_is_nearly_closed_is_turned_outward(sphere):
+    height = sphere.vertices[sphere.faces, 2].max(axis=1)
+    for below, told in ((0.9, True), (0.0, False)):  # a small hole, and half a sphere
+        part = Mesh(sphere.vertices, sphere.faces[height < below])
+        assert not inward_faces(part).any()
+        inside_out = Mesh(part.vertices, part.faces[:, ::-1])
+        assert (inward_faces(inside_out) == told).all()
+
+
+def test_the_volume_of_an_open_box_is_that_of_the_box():
+    corners = np.array([[x, y, z] for x in (3, 5) for y in (0, 1) for z in (0, 4)], dtype=float)
+    hull = ConvexHull(corners).simplices
+    box = Mesh(
+        corners, np.where(looks_outward(Mesh(corners - corners.mean(axis=0), hull))[:, None], hull, hull[:, ::-1])
+    )
+    open_box = box.faces[~(box.vertices[box.faces, 2] == 4).all(axis=1)]
+    rim, agree = _rim_and_agreement(open_box, 8)
+    assert agree
+    assert len(rim) == 4
+    assert _enclosed_volume(corners, open_box, rim, np.zeros(4, dtype=int)) == pytest.approx(8)
+
+
+def test_an_open_sheet_keeps_its_side_and_agrees_with_itself():
+    x, y = (grid.ravel() for grid in np.meshgrid(np.arange(12.0), np.arange(12.0)))
+    corner = (np.arange(11)[:, None] * 12 + np.arange(11)).ravel()
+    faces = np.concatenate(
+        [np.stack([corner, corner + 1, corner + 13], 1), np.stack([corner, corner + 13, corner + 12], 1)]
+    )
+    sheet = Mesh(np.stack([x, y, 0.2 * np.sin(x)], axis=1), faces)
+    for side in (sheet, turned_over(sheet, np.ones(len(faces), bool))):
+        assert not inward_faces(side).any()
+        for first in (0, 1):  # whether the first face, where the others are made to agree with, is among the turned
+            few = np.arange(len(faces)) % 5 == first
+            np.testing.assert_array_equal(inward_faces(turned_over(side, few)), few)
+
+
+def test_a_closed_sheet_without_an_inside_keeps_its_side(sphere):
+    flat = Mesh(sphere.vertices * [1, 1, 1e-4], sphere.faces[:, ::-1])
+    assert not inward_faces(flat).any()
+
+
+def test_second_sides_are_left_out_and_single_folds_stay(sphere):
+    both = Mesh(sphere.vertices, np.concatenate([sphere.faces, np.roll(sphere.faces[:, ::-1], 1, axis=1)]))
+    np.testing.assert_array_equal(doubled_faces(both.faces), np.arange(len(both.faces)) >= len(sphere.faces))
+    part = face_outward(clean_mesh(both))
+    np.testing.assert_array_equal(part.mesh.faces, sphere.faces)
+    np.testing.assert_array_equal(part.faces_to_original, np.arange(len(sphere.faces)))
+    assert part.doubled == len(sphere.faces)
+    folded = Mesh(sphere.vertices, np.concatenate([sphere.faces, sphere.faces[:3, ::-1]]))
+    assert face_outward(clean_mesh(folded)).doubled == 0
+
+
+@pytest.mark.parametrize("damage", ["inside out", "some", "two-sided"])
+def test_a_match_is_that_of_the_undamaged_shapes(damage):
+    pair = datasets.two_poses(1500, 0)
+    damaged = []
+    for mesh in (pair.source, pair.target):
+        which = (
+            np.random.default_rng(5).random(len(mesh.faces)) < {"inside out": 1.0, "some": 0.2, "two-sided": 0}[damage]
+        )
+        given = turned_over(mesh, which)
+        second = given.faces[:, ::-1] if damage == "two-sided" else given.faces[:0]
+        damaged.append(Mesh(mesh.vertices, np.concatenate([given.faces, second])))
+    plain = kfmaps.match(pair.source, pair.target, CONFIG)
+    with pytest.warns(KfmapsWarning, match="second sides" if damage == "two-sided" else "turned outward"):
+        found = kfmaps.match(damaged[0], damaged[1], CONFIG)
+    np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
+    assert found.verdict == plain.verdict
+    # Weights belong to corners, and the corners of a face that is turned run the other way.
+    np.testing.assert_allclose(
+        point_positions(found.precise(), damaged[0]), point_positions(plain.precise(), pair.source), atol=1e-9
+    )
