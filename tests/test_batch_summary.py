@@ -13,7 +13,7 @@ import pytest
 
 from collecting import done, plan_of, write_collection
 from kfmaps.batch.layout import Pair
-from kfmaps.batch.page import PAGE, summary_page
+from kfmaps.batch.page import PAGE, AgreementSection, summary_page
 from kfmaps.batch.results import (
     Result,
     all_results,
@@ -96,7 +96,15 @@ def test_columns_of_which_nothing_is_known_are_left_out() -> None:
     assert "<th>verdict</th>" in page
     assert "geodesic" not in page
     changed = [replace(some_results()[0], changed="alternative 1", why="<why>", error_before=0.4, agreement=0.99)]
-    page = summary_page("c", changed, {}, {}, 1, pages={Pair("a", "b"): "pages/a-b.html"}, doubted=["<x> → y"])
+    page = summary_page(
+        "c",
+        changed,
+        {},
+        {},
+        1,
+        pages={Pair("a", "b"): "pages/a-b.html"},
+        agreement=AgreementSection(doubted=["<x> → y"]),
+    )
     assert "Replaced maps" in page
     assert "&lt;why&gt;" in page
     assert "40.00" in page

@@ -6,6 +6,7 @@ import io
 import json
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -72,6 +73,15 @@ _COLUMNS: tuple[_Column, ...] = (
 """Title, value to sort by and text of the columns of all pairs. A column of which nothing is known is left out."""
 
 
+@dataclass(frozen=True)
+class AgreementSection:
+    """What making the maps agree adds to the summary page."""
+
+    changed: Mapping[str, bytes] = field(default_factory=dict)  # pictures of replaced maps, before and after
+    doubted: Sequence[str] = ()  # pairs that others contradict and for which nothing better is known, a line each
+    specimens: Mapping[str, Any] = field(default_factory=dict)  # charts of the shapes, and a table
+
+
 def write_page(
     plan: Plan, results: Sequence[Result], name: str, worst: int, consistent: ConsistentResult | None = None
 ) -> Path:
@@ -84,21 +94,19 @@ def write_page(
     ordered = worst_first(results)
     shown = ordered[:worst] + [r for r in results if r.changed][: 2 * worst]
     pages = _write_pages(plan.folder, tasks, shown)
-    changed, specimens = {}, None
+    agreement = AgreementSection()
     if consistent is not None:
         replaced = [r for r in consistent.results if r.changed and r.pair in consistent.before]
         changed = _pictures(tasks, replaced, worst, fitting_limit(consistent.results), consistent.before)
-        specimens = _specimens(plan)
+        agreement = AgreementSection(changed, consistent.doubted, _specimens(plan))
     page = summary_page(
         name,
         results,
         read_run_spec(plan.folder),
         _pictures(tasks, ordered, worst, fitting_limit(results)),
         len({r.pair for r in results} | tasks.keys()),
-        pages=pages,
-        changed=changed,
-        doubted=() if consistent is None else consistent.doubted,
-        specimens=specimens,
+        pages,
+        agreement,
     )
     write_text(plan.folder / PAGE, page, force=True)
     return plan.folder / PAGE
@@ -110,19 +118,15 @@ def summary_page(
     settings: Mapping[str, object],
     pictures: Mapping[str, bytes],
     pairs: int,
-    *,
     pages: Mapping[Pair, str] | None = None,
-    changed: Mapping[str, bytes] | None = None,
-    doubted: Sequence[str] = (),
-    specimens: Mapping[str, object] | None = None,
+    agreement: AgreementSection | None = None,
 ) -> str:
     """Return the summary page.
 
-    ``name``: title, any text; ``settings``: as JSON holds them; ``pictures`` and ``changed``: of the worst pairs, and
-    of replaced maps before and after, in the order to be shown; ``pairs``: how many pairs were asked for; ``pages``: of
-    the pages of single maps, relative to the summary; ``doubted``: pairs that others contradict and for which nothing
-    better is known, a line each; ``specimens``: charts of the shapes, and a table.
+    ``name``: title, any text; ``settings``: as JSON holds them; ``pictures``: of the worst pairs, in the order to be
+    shown; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary.
     """
+    agreement = agreement or AgreementSection()
     numbers, ordered = summarize(results), worst_first(results)
     folder = files("kfmaps.batch").joinpath("templates")
     style, script = (folder.joinpath(f"summary.{kind}").read_text(encoding="utf-8") for kind in ("css", "js"))
@@ -150,10 +154,10 @@ def summary_page(
         largest=max((r.error_mean or 0.0 for r in ordered), default=0.0),
         pages=pages or {},
         pictures=_addresses(pictures),
-        changed_pictures=_addresses(changed or {}),
-        doubted=doubted,
-        specimens=(specimens or {}).get("sections", ()),
-        shapes=(specimens or {}).get("shapes"),
+        changed_pictures=_addresses(agreement.changed),
+        doubted=agreement.doubted,
+        specimens=agreement.specimens.get("sections", ()),
+        shapes=agreement.specimens.get("shapes"),
         settings=json.dumps(settings, indent=2),
     )
 
@@ -190,12 +194,12 @@ def _addresses(pictures: Mapping[str, bytes]) -> list[tuple[str, str]]:
     return [(caption, data_address("image/png", png)) for caption, png in pictures.items()]
 
 
-def _specimens(plan: Plan) -> dict[str, Any] | None:
-    """What the maps say of the shapes: a chart and a picture of each component, and a table; ``None`` without."""
+def _specimens(plan: Plan) -> dict[str, Any]:
+    """What the maps say of the shapes: a chart and a picture of each component, and a table; empty without."""
     folder = plan.folder / CONSISTENT
     paths = limit_shape_paths(folder)
     if not paths:
-        return None
+        return {}
     rows = read_table(folder / SHAPES)
     meshes = {t.name: t.path for task in plan.tasks for t in (task.source, task.target)}
     sections = []

@@ -149,6 +149,10 @@ class Collection:
         return [(self.names.index(a), self.names.index(b)) for a, b in self.pairs]
 
 
+_Part = tuple[tuple[int, int], np.ndarray, Match | None]
+"""A pair by number, its map, in which some vertices have no counterpart, and its match where one was made here."""
+
+
 def match_collection(
     shapes: Mapping[str, ShapeLike | Shape] | Sequence[ShapeLike | Shape],
     maps: Mapping[tuple[str, str], MapLike] | None = None,
@@ -193,37 +197,45 @@ def match_collection(
     """
     config = config or Config()
     progress = progress or (lambda _what, _done, _of: None)
-    given = dict(shapes) if isinstance(shapes, Mapping) else {str(i): shape for i, shape in enumerate(shapes)}
-    check_count(len(given), "shapes", low=2)
-    names, ready = tuple(given), []
-    for i, (name, shape) in enumerate(given.items()):
-        if isinstance(shape, Shape):
-            check_prepared(shape, config)
-        ready.append(shape if isinstance(shape, Shape) else prepare(as_mesh(shape, name), config, name=name))
-        progress("shapes", i + 1, len(given))
-    known = _checked_maps(maps, names, ready) if maps is not None else {}
-    ends = (
-        list(known)
-        if maps is not None
-        else list(signature_graph(graph, np.stack([signature(shape.basis) for shape in ready])))
-    )
+    names, ready = _prepared(shapes, config, progress)
     store = _MemoryStore(names, ready, config, rng, [scoring_samples(shape, rng) for shape in ready])
-    parts: list[tuple[tuple[int, int], np.ndarray, Match | None]] = []
+    known = {} if maps is None else _checked_maps(maps, names, ready)
+    ends = tuple(known) if maps is not None else signature_graph(graph, np.stack([signature(s.basis) for s in ready]))
+    parts: list[_Part] = []
     for i, (a, b) in enumerate(ends):
-        given_map = (maps or {}).get((names[a], names[b]))
         match_ab = None if (a, b) in known else store.match(a, b)
         file = known[a, b] if match_ab is None else as_map(match_ab)
         progress("pairs", i + 1, len(ends))
         if (check_map(file, name=f"map {names[a]} → {names[b]}", lost=True) < 0).any():
             parts.append(((a, b), file.target_to_source, match_ab))
             continue
-        told = given_map if match_ab is None else match_ab
+        told = match_ab or (maps or {}).get((names[a], names[b]))
         store.add((a, b), file, match_ab, told.orientation == "reversing" if isinstance(told, Match) else None)
-    result = synchronize_store(store)
+    return _collected(store, parts)
+
+
+def _prepared(
+    shapes: Mapping[str, ShapeLike | Shape] | Sequence[ShapeLike | Shape], config: Config, progress: CountProgress
+) -> tuple[tuple[str, ...], list[Shape]]:
+    """Return the names of the shapes, and the shapes prepared."""
+    given = dict(shapes) if isinstance(shapes, Mapping) else {str(i): shape for i, shape in enumerate(shapes)}
+    check_count(len(given), "shapes", low=2)
+    ready = []
+    for i, (name, shape) in enumerate(given.items()):
+        if isinstance(shape, Shape):
+            check_prepared(shape, config)
+        ready.append(shape if isinstance(shape, Shape) else prepare(as_mesh(shape, name), config, name=name))
+        progress("shapes", i + 1, len(given))
+    return tuple(given), ready
+
+
+def _collected(store: _MemoryStore, parts: list[_Part]) -> Collection:
+    """Make the maps of a store agree; ``parts`` are the pairs that take no part, their maps and matches."""
+    result, names = synchronize_store(store), store.names
     pairs = tuple((names[a], names[b]) for a, b in (*store.ends, *(pair for pair, _, _ in parts)))
     return Collection(
         names,
-        tuple(ready),
+        tuple(store.shapes),
         pairs,
         (*(several[0][0] for several in store.candidates), *(points for _, points, _ in parts)),
         (*store.matches, *(match_ab for _, _, match_ab in parts)),

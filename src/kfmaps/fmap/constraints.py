@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 from kfmaps._arrays import Array, check, inner, namespace
-from kfmaps.fmap.solvers import CG, Direct, Operator, Solution, Solver, Status
+from kfmaps.fmap.solvers import CG, Direct, Operator, Solution, Solver, reason_to_stop
 from kfmaps.fmap.terms import Term
 
 _MAX_HALVINGS = 12  # shorter steps that are tried before the polar step
@@ -75,18 +75,8 @@ def minimize_orthogonal(
     here = _At(energy, right, nearest_orthogonal(start))
     gradient = _tangent(here.C, here.gradient)
     residuals = [inner(gradient, gradient) ** 0.5]
-    status: Status = "step limit"
     direction, before, bound = None, None, None
-    steps = 0
-    while True:
-        if not np.isfinite(residuals[-1]):
-            status = "breakdown"
-            break
-        if residuals[-1] <= settings.rtol * size:
-            status = "converged"
-            break
-        if steps >= limit:
-            break
+    while (status := reason_to_stop(residuals, settings.rtol * size, limit)) is None:
         z = gradient if preconditioner is None else _tangent(here.C, preconditioner(gradient))
         gz = inner(gradient, z)
         direction = _next_direction(here.C, gradient, z, gz, direction, before)
@@ -102,11 +92,10 @@ def minimize_orthogonal(
             before = gradient, gz
         here = there
         gradient = _tangent(here.C, here.gradient)
-        steps += 1
         residuals.append(inner(gradient, gradient) ** 0.5)
         if progress is not None:
-            progress(steps, residuals[-1] / size)
-    return Solution(here.C, status, steps, np.asarray(residuals))
+            progress(len(residuals) - 1, residuals[-1] / size)
+    return Solution(here.C, status, len(residuals) - 1, np.asarray(residuals))
 
 
 def _next_direction(

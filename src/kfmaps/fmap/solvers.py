@@ -102,24 +102,13 @@ def solve(
     """
     if isinstance(solver, Direct):
         return _direct(apply, b, solver)
-    xp = namespace(b)
-    x = xp.zeros_like(b) if x0 is None else x0
+    x = namespace(b).zeros_like(b) if x0 is None else x0
     r = b if x0 is None else b - apply(x0)
     size = inner(b, b) ** 0.5
     residuals = [inner(r, r) ** 0.5]
     limit = np.inf if solver.max_iter is None else solver.max_iter
-    status: Status = "step limit"
     p, rz = None, 0.0
-    steps = 0
-    while True:
-        if not np.isfinite(residuals[-1]):
-            status = "breakdown"
-            break
-        if residuals[-1] <= solver.rtol * size:
-            status = "converged"
-            break
-        if steps >= limit:
-            break
+    while (status := reason_to_stop(residuals, solver.rtol * size, limit)) is None:
         z = r if preconditioner is None else preconditioner(r)
         previous, rz = rz, inner(r, z)
         p = z if p is None else z + (rz / previous) * p
@@ -131,13 +120,24 @@ def solve(
         step = rz / curvature
         following = x + step * p
         r = r - step * q
-        steps += 1
         residuals.append(inner(r, r) ** 0.5)
         if np.isfinite(residuals[-1]):
             x = following
         if progress is not None:
-            progress(steps, residuals[-1] / size if size else 0.0)
-    return Solution(x, status, steps, np.asarray(residuals))
+            progress(len(residuals) - 1, residuals[-1] / size if size else 0.0)
+    return Solution(x, status, len(residuals) - 1, np.asarray(residuals))
+
+
+def reason_to_stop(residuals: list[float], enough: float, limit: float) -> Status | None:
+    """Return why an iteration with these ``residuals``, one more than steps, ends; ``None`` where it goes on.
+
+    ``enough``: the residual that is asked for; ``limit``: the most steps.
+    """
+    if not np.isfinite(residuals[-1]):
+        return "breakdown"
+    if residuals[-1] <= enough:
+        return "converged"
+    return "step limit" if len(residuals) > limit else None
 
 
 def dense_matrix(apply: Operator, shape: tuple[int, ...], example: Array) -> np.ndarray:

@@ -146,8 +146,13 @@ def _mollified(corners: np.ndarray) -> np.ndarray:
     return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
 
 
-def _operators(mesh: Mesh, laplacian: str) -> tuple[SparseMatrix, np.ndarray]:
-    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices and copies."""
+def _operators(mesh: Mesh, laplacian: str, k: int) -> tuple[SparseMatrix, np.ndarray]:
+    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices, with ``k`` eigenpairs."""
+    if len(mesh.vertices) <= k:
+        wanted = f"fewer eigenfunctions than the {len(mesh.vertices)} vertices in use"
+        raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
+    if laplacian not in ("robust", "cotangent"):
+        raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
     if len(mesh.faces) == 0:
         return cloud_laplacian(mesh.vertices)
     if laplacian == "cotangent":
@@ -209,16 +214,10 @@ def laplace_basis(
         When a residual is above the tolerance; see :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
     """
     check_is_mesh(mesh)
-    if laplacian not in ("robust", "cotangent"):
-        raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
     part = clean_mesh(mesh)
-    if len(part.to_original) <= check_count(k, "k"):
-        wanted = f"fewer eigenfunctions than the {len(part.to_original)} vertices in use"
-        raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
-    stiffness, area = _operators(part.mesh, laplacian)
+    stiffness, area = _operators(part.mesh, laplacian, check_count(k, "k"))
     pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, threads=threads, progress=progress)
     if part.whole:
         return Basis(pairs.values, pairs.vectors, area)
-    mass = np.zeros(len(mesh.vertices))
-    mass[part.to_original] = area
+    mass = np.bincount(part.to_original, area, minlength=len(mesh.vertices))
     return Basis(pairs.values, pairs.vectors[part.to_clean], mass)

@@ -174,19 +174,26 @@ def search_map(
         wrong, doubts = _contradicted_landmarks(state)
         state = search_with(wrong) if wrong.any() else state
         state = replace(state, doubts=(*state.doubts, *doubts))
-    ranked, samples, retries = state.ranked, state.samples.whole, ()
     if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
         others = learned_candidates(source, target, config, state.samples, given)
-        ranked = merge_alternatives(ranked, others, samples, state.copies, config.threads)
-    if _are_surfaces(samples):
-        state = _compare_exchanged(replace(state, ranked=ranked))
-        ranked = state.ranked
-    if _are_surfaces(samples) and ranked[0].quality.score < SCORE.repair_score:
-        ranked = rerank_near_duplicates(ranked, state.found, samples, state.copies, config.threads)
-        kept = pairs[~state.wrong]
-        ranked, retries = refine_by_registration(ranked, samples, state.copies, kept, config.threads, report)
-    state = replace(state, ranked=ranked)
-    return replace(_to_result(state, ranked[0], ranked[1:]), retries=retries, _search=state)
+        merged = merge_alternatives(state.ranked, others, state.samples.whole, state.copies, config.threads)
+        state = replace(state, ranked=merged)
+    state, retries = _improve_best(state, report)
+    return replace(_to_result(state, state.ranked[0], state.ranked[1:]), retries=retries, _search=state)
+
+
+def _improve_best(state: _Search, report: Progress) -> tuple[_Search, tuple[Candidate | SwappedRepair, ...]]:
+    """Exchange alike limbs of the best map, and register the best maps of unlike surfaces; return the retries too."""
+    samples, copies, threads = state.samples.whole, state.copies, state.config.threads
+    if not _are_surfaces(samples):
+        return state, ()
+    state = _compare_exchanged(state)
+    if state.ranked[0].quality.score >= SCORE.repair_score:
+        return state, ()
+    ranked = rerank_near_duplicates(state.ranked, state.found, samples, copies, threads)
+    kept = state.pairs[~state.wrong]
+    ranked, retries = refine_by_registration(ranked, samples, copies, kept, threads, report)
+    return replace(state, ranked=ranked), retries
 
 
 def retry(result: SearchResult, number: int, least: float) -> SearchResult | None:

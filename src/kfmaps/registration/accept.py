@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -21,9 +22,6 @@ more."""
 _MIN_CHANGE = 0.2  # change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit
 _MAX_WORSENED_AREA = 0.006
 """Share of the target's area that a right fit harms at most, fingertips mostly; above, what it harmed is held back."""
-_MAX_LANDMARK_ERROR, _MIN_LANDMARKS = 0.04, 5
-"""Median distance of landmarks from the map, in √area, above which they are taken for less exact than the map of shapes
-that are nearly isometric, and how many of them can tell: right ones have 0.01 to 0.03."""
 
 
 @dataclass(frozen=True)
@@ -98,24 +96,18 @@ def register_map(
     finish = config.registration
     if finish is None or config.refinement is None or not surfaces:
         return RegisteredMap(points, None, None, trust)
-    hold = True
-    if landmarks is not None and len(landmarks) >= _MIN_LANDMARKS and not getattr(finish, "local_scaling", 0):
-        images = source.mesh.vertices[points[landmarks[:, 1]]]
-        errors = np.linalg.norm(images - source.mesh.vertices[landmarks[:, 0]], axis=1)
-        hold = bool(np.median(errors) <= _MAX_LANDMARK_ERROR)
-        landmarks = landmarks if hold else None
+    hold = bool(getattr(finish, "local_scaling", 0)) or not _less_exact(landmarks, points, source.mesh.vertices)
+    landmarks = landmarks if hold else None
     areas = vertex_areas(target.mesh)
     areas = areas / areas.sum()
 
     def tried(held: np.ndarray | None) -> _Tried:
         stage = "non-rigid fit" if held is None else "non-rigid fit, held"
         with clock(stage):
-            found = finish(
-                source.mesh, target.mesh, points, lambda done: clock.report(stage, done), landmarks=landmarks, held=held
-            )
-        told = RegistrationReport(
-            found.gap, found.bending, float(trust.mean()), pinned=held is not None, landmarks_held=hold
-        )
+            report = partial(clock.report, stage)
+            found = finish(source.mesh, target.mesh, points, report, landmarks=landmarks, held=held)
+        before, pinned = float(trust.mean()), held is not None
+        told = RegistrationReport(found.gap, found.bending, before, pinned=pinned, landmarks_held=hold)
         if found.gap > _MAX_GAP:
             return _Tried(found, points, trust, told)
         vertices = nearest_vertices(PointMap(found.faces, found.weights), source.mesh)
@@ -128,11 +120,7 @@ def register_map(
 
     first = best = tried(None)
     # Where sizes may change distances do, rightly: what a fit that is kept has changed there is no reason to hold it.
-    if (
-        first.told.after is not None
-        and first.told.worsened > _MAX_WORSENED_AREA
-        and not (getattr(finish, "local_scaling", 0) and first.told.accepted)
-    ):
+    if first.told.worsened > _MAX_WORSENED_AREA and not (getattr(finish, "local_scaling", 0) and first.told.accepted):
         held = np.clip(2 * (trust - first.trust) / _MIN_CHANGE - 1, 0.0, 1.0)
         second = tried(held)
         best = second if second.told.accepted or not first.told.accepted else first
@@ -140,3 +128,14 @@ def register_map(
         return RegisteredMap(points, None, None, trust, best.told)
     place = PointMap(best.found.faces, best.found.weights)
     return RegisteredMap(best.vertices, place, best.found.vertices, best.trust, best.told)
+
+
+def _less_exact(landmarks: np.ndarray | None, points: np.ndarray, vertices: np.ndarray) -> bool:
+    """Whether landmarks (l, 2) are less exact than the map ``points (n_t,)`` of shapes that are nearly isometric.
+
+    At least five can tell: the median of their distances from the map, in √area, is 0.01 to 0.03 where they are right.
+    """
+    if landmarks is None or len(landmarks) < 5:
+        return False
+    errors = np.linalg.norm(vertices[points[landmarks[:, 1]]] - vertices[landmarks[:, 0]], axis=1)
+    return bool(np.median(errors) > 0.04)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,52 +107,79 @@ def smallest_eigenpairs(
     NotConverged
         When a residual stays above the tolerance or the shifted matrix is singular.
     """
-    n = stiffness.shape[0]
+    matrix, mass = _check_pencil(stiffness, mass)
+    method = _choose_method(method, len(mass), check_count(k, "k", 1, len(mass)))
+    check_positive(tolerance, "tolerance")
+    with one_blas_thread(), _map_of_threads(len(mass), threads) as each:
+        return _solve(matrix, mass, k, method, tolerance, rng, each, progress)
+
+
+def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array, np.ndarray]:
+    """Return both as the solver takes them, or raise :class:`InvalidInput`."""
+    n, mass = stiffness.shape[0], np.asarray(mass, dtype=np.float64)
     matrix = csr_array(stiffness)
-    mass = np.asarray(mass, dtype=np.float64)
     if stiffness.shape != (n, n) or mass.shape != (n,):
         got = f"stiffness {tuple(stiffness.shape)}, mass {mass.shape}"
         raise refuse("pencil", "stiffness (n, n) and mass (n,)", got, "check how they were made")
     check(matrix.data, "stiffness")
     check(mass, "mass")
-    check_count(k, "k", 1, n)
-    check_positive(tolerance, "tolerance")
-    if method not in ("auto", "block", "dense"):
-        raise refuse("method", "one of auto, block, dense", repr(method), "choose one of them")
     if mass.min() < 0 or not mass.sum() > 0:
         raise refuse("mass", "numbers of at least zero, not all zero", f"{mass.min():g}", "check the areas")
     idle = int(((mass == 0) & (matrix.diagonal() == 0)).sum())
     if idle:
         raise refuse("pencil", "a mass or a stiffness in every row", f"{idle} rows with neither", "leave them out")
-    small = n <= max(400, 4 * k + 200)
-    if method == "auto" or (method != "dense" and small):
-        method = "dense" if small else "block"
+    return matrix, mass
+
+
+def _choose_method(method: str, n: int, k: int) -> str:
+    """Return "dense" or "block"."""
+    if method not in ("auto", "block", "dense"):
+        raise refuse("method", "one of auto, block, dense", repr(method), "choose one of them")
+    return "dense" if method == "dense" or n <= max(400, 4 * k + 200) else "block"
+
+
+@contextmanager
+def _map_of_threads(rows: int, threads: int | None) -> Iterator[Map]:
+    """``map``, or that of a pool of threads where these pay."""
+    if (workers := threads or available_cores()) > 1 and rows >= THREADED:
+        with ThreadPoolExecutor(workers) as pool:
+            yield pool.map
+    else:
+        yield map
+
+
+def _solve(
+    matrix: csr_array,
+    mass: np.ndarray,
+    k: int,
+    method: str,
+    tolerance: float,
+    rng: int | np.random.Generator,
+    each: Map,
+    progress: Callable[[float], None] | None,
+) -> Eigenpairs:
+    """The eigenpairs of a checked pencil; see :func:`smallest_eigenpairs`."""
     # A vertex without mass takes the value that its neighbours give it; this much mass moves no eigenvalue by more.
     floored = np.maximum(mass, 1e-10 * mass.mean())
-    with ExitStack() as stack:
-        stack.enter_context(one_blas_thread())
-        each = map
-        if (workers := threads or available_cores()) > 1 and n >= THREADED:
-            each = stack.enter_context(ThreadPoolExecutor(workers)).map
-        order = fill_order(matrix)
-        if order is not None:
-            matrix, floored = matrix[order][:, order], floored[order]
-        if method == "block" and tolerance >= LOOSE:
-            rough = _nearly(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
-            if rough is not None:
-                return _signed(rough, order)
-            tolerance = EXACT
-        pencil = _Pencil(matrix, floored, order is not None, each)
-        if progress is not None:
-            pencil.solve = _counted(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
-        vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+    order = fill_order(matrix)
+    if order is not None:
+        matrix, floored = matrix[order][:, order], floored[order]
+    if method == "block" and tolerance >= LOOSE:
+        rough = _nearly(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
+        if rough is not None:
+            return _signed(rough, order)
+        tolerance = EXACT
+    pencil = _Pencil(matrix, floored, order is not None, each)
+    if progress is not None:
+        pencil.solve = _counted(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
+    vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+    found = pencil.residuals(vectors)
+    for _ in range(2):  # specks and caps make the Lanczos basis lose digits
+        if not len(_missed(pencil, vectors, *found, tolerance)):
+            break
+        vectors = _improved(pencil, pencil.root[:, None] * vectors)
         found = pencil.residuals(vectors)
-        for _ in range(2):  # specks and caps make the Lanczos basis lose digits
-            if not len(_missed(pencil, vectors, *found, tolerance)):
-                break
-            vectors = _improved(pencil, pencil.root[:, None] * vectors)
-            found = pencil.residuals(vectors)
-        return _signed(_checked(pencil, vectors, *found, tolerance), order)
+    return _signed(_checked(pencil, vectors, *found, tolerance), order)
 
 
 def _nearly(
