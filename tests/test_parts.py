@@ -13,7 +13,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.cli.partial_truth import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
 from kfmaps.fmap.evaluate import precise_errors
-from kfmaps.fmap.precise import PointMap
+from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
@@ -277,6 +277,28 @@ def test_a_part_is_placed_in_units_of_the_whole(monkeypatch, which):
         with pytest.raises(InvalidInput, match="enough"):
             match_partial(*shapes, SMALL, which)
     assert seen == pytest.approx([1 / 3, 3] if which == "source" else [3, 1 / 3])
+
+
+@pytest.mark.parametrize(("which", "word"), [("target", "unlikely"), ("both", "likely")])
+def test_two_parts_have_a_calibration_of_their_own(monkeypatch, which, word):
+    """Their right placements score less, and a placement that fits nowhere is sought without landmarks by the same."""
+    mesh, asked, score = blob(200), [], SCORE.part.calibration_of_two.middle + 2
+    assert score < PART.middle - 2
+    shape = prepare(mesh, SMALL, name="a")
+    places, all_ = vertex_point_map(np.arange(200), shape.mesh), np.ones(200)
+    bent = SimpleNamespace(scale=1.0, vertices=shape.mesh.vertices)
+    overlap = SimpleNamespace(part=all_, whole=all_, on_whole=places, on_part=places)
+
+    def place(*_, landmarks, **__):
+        asked.append(len(landmarks))
+        return SimpleNamespace(registration=bent, overlap=overlap, scores=(score,), margin=3.0)
+
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
+    found = match_partial(shape, shape, SMALL, which, landmarks=np.array([[3, 3], [50, 50]]))
+    numbers = PART if which == "target" else SCORE.part.calibration_of_two
+    assert found.confidence == probability(score, 3.0, numbers=numbers)
+    assert found.verdict == word
+    assert asked == ([2, 0] if word == "unlikely" else [2])
 
 
 def test_distances_decide_between_places_that_look_alike(rng):

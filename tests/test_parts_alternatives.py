@@ -167,7 +167,7 @@ def test_landmarks_that_a_placement_contradicts_are_left_out(
         score = first if len(asked) == 1 else second
         return SimpleNamespace(registration=SimpleNamespace(vertices=moved), scores=(score,), margin=9.0)
 
-    found, named = _place_by_landmarks(place_with, pairs, whole)
+    found, named = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration)
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])
     assert found.scores[0] == (first if others is None else max(first, second))
     assert np.flatnonzero(named).tolist() == rejected

@@ -104,7 +104,7 @@ def test_what_is_not_known_costs_nothing() -> None:
 @pytest.mark.parametrize("number", ["slope", "middle", "tie", "excess_middle", "excess_width"])
 def test_every_number_of_the_calibration_counts(number: str) -> None:
     usual = np.exp(0.6 - excess_deformation(-9.0, 1.0))
-    for numbers in (SCORE.calibration, SCORE.part.calibration):
+    for numbers in (SCORE.calibration, SCORE.part.calibration, SCORE.part.calibration_of_two):
         score = numbers.middle + 1 / numbers.slope
         energy = float(np.exp(0.6 - excess_deformation(score, 1.0, numbers)))
         other = replace(numbers, **{number: 1.5 * getattr(numbers, number)})

@@ -57,6 +57,8 @@ class PartScoring:
 
     calibration: Calibration = field(default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2))
     """Fitted by `benchmarks/parts_verdict.py`."""
+    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(slope=1 / 2.25, middle=10.75))
+    """That of two parts, whose right placements score less; fitted by the same to `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0

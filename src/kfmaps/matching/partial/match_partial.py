@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.place_part import PlacedPart, place_part
 from kfmaps.matching.partial.registration import scale_mesh
-from kfmaps.matching.score import SCORE, probability, verdict
+from kfmaps.matching.score import SCORE, Calibration, probability, verdict
 from kfmaps.shape import Shape
 
 COMMON = 0.5
@@ -79,7 +79,8 @@ def match_partial(
         rng=rng,
         progress=None if progress is None else lambda done: progress("parts", done),
     )
-    found, rejected = _place_by_landmarks(place_with, pairs[:, ::-1] if forward else pairs, whole.mesh)
+    numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
+    found, rejected = _place_by_landmarks(place_with, pairs[:, ::-1] if forward else pairs, whole.mesh, numbers)
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
@@ -98,8 +99,8 @@ def match_partial(
         trust,
         None if forward else found.registration.vertices,
         scale,
-        verdict(found.scores[0], found.margin, numbers=SCORE.part.calibration),
-        probability(found.scores[0], found.margin, numbers=SCORE.part.calibration),
+        verdict(found.scores[0], found.margin, numbers=numbers),
+        probability(found.scores[0], found.margin, numbers=numbers),
         found.scores,
         np.flatnonzero(rejected),
         min(common) > SCORE.part.whole_overlap,
@@ -107,12 +108,12 @@ def match_partial(
 
 
 def _place_by_landmarks(
-    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh
+    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration
 ) -> tuple[PlacedPart, np.ndarray]:
     """Return a placement, and which of the landmarks ``pairs (l, 2)`` it contradicts, (l,) bool.
 
     A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
-    where the part fits nowhere with them. The one with the better score is kept.
+    where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept.
     """
 
     def missed(found: PlacedPart) -> np.ndarray:
@@ -121,7 +122,7 @@ def _place_by_landmarks(
 
     found = place_with(landmarks=pairs)
     wrong = missed(found)
-    nowhere = verdict(found.scores[0], found.margin, numbers=SCORE.part.calibration) == "unlikely"
+    nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
     if len(pairs) and (nowhere or wrong.any()):
         others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
         again = place_with(landmarks=others, progress=None)
