@@ -1,12 +1,15 @@
 """The verdict of parts fitted to candidates whose truth is known, and how well it does on kinds that it has not seen.
 
     python benchmarks/parts_verdict.py --data DIR [--json ROWS.json]
+    python benchmarks/parts_verdict.py --two ROWS.json,ROWS.json
 
 All candidates of a search are bent and compared with the truth (straight-line errors × 100, in √area of the whole), for
 the pairs of :data:`PAIRS`, which are all of shapes that settings were chosen on. Of each search a few pools of
 candidates are made, the wrong ones alone among them; rivals of the best of each pool are looked for as the search does,
 and what the best of all then shows is one example. A pair's examples weigh one together. About a minute a pair.
-ROWS.json keeps the examples, and spares what it has.
+ROWS.json keeps the examples, and spares what it has. With ``--two`` the examples are two parts, as
+benchmarks/part_to_part.py and ``parts.py --both`` have kept them with ``--json``; the fit calls no wrong one sure, and
+what is told with the numbers in use stands below, to compare halves.
 """
 
 from __future__ import annotations
@@ -20,8 +23,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from part_to_part import is_right
 from parts import Job, read_job
 from scipy.optimize import minimize
+from scipy.special import expit
 
 import kfmaps
 from kfmaps import datasets
@@ -45,6 +50,8 @@ PAIRS = (
 planes of the creatures with seed 0 cut lengthwise."""
 KINDS = {"cuts": "animals", "holes": "animals", "PFAUST_M": "people", "PFAUST_H": "people"}
 RIGHT, WRONG = 8.0, 10.0
+MOST = 0.885
+"""Chance that a wrong example of two parts may have at most: "sure" begins at 0.9."""
 
 
 def generated(name: str, seed: int, vertices: int) -> tuple[Mesh, Mesh, np.ndarray]:
@@ -128,14 +135,22 @@ def examples(pair: str, data: Path) -> list[dict[str, Any]]:
     return found
 
 
-def fitted(shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: float = 0.05) -> np.ndarray:
-    """Middle and width of the logistic function of the score, by likelihood; what the margin does is not fitted."""
+def fitted(
+    shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: float = 0.05, most: float = 1.0
+) -> np.ndarray:
+    """Middle and width of the logistic function of the score, by likelihood; what the margin does is not fitted.
+
+    ``most``: the greatest chance that a wrong example may have.
+    """
 
     def loss(b: np.ndarray) -> float:
         p = np.clip(chances(b, shown), 1e-9, 1 - 1e-9)
-        return float(-weights @ (right * np.log(p) + (1 - right) * np.log(1 - p)) + ridge / b[1] ** 2)
+        above = max(0.0, float((p * (1 - right)).max()) - most)
+        return float(-weights @ (right * np.log(p) + (1 - right) * np.log(1 - p)) + ridge / b[1] ** 2 + 1e4 * above)
 
-    return minimize(loss, np.array([16.0, 1.0]), method="Nelder-Mead").x
+    begins = np.array([[16.0, 1.0], [12.0, 2.0], [10.0, 3.0]])
+    tried = [minimize(loss, begin, method="Nelder-Mead", options={"maxiter": 2000}) for begin in begins]
+    return min(tried, key=lambda one: one.fun).x
 
 
 def chances(b: np.ndarray, shown: np.ndarray) -> np.ndarray:
@@ -150,11 +165,55 @@ def told(name: str, chance: np.ndarray, error: np.ndarray) -> None:
     print(f"{name:34s}" + "".join(f"{count:10d}" for count in counts))
 
 
+def print_fits(
+    kinds: np.ndarray, shown: np.ndarray, right: np.ndarray, errors: np.ndarray, weights: np.ndarray, most: float = 1.0
+) -> np.ndarray:
+    """What is told of each kind by the fit to the others, and the fit to all, which is returned."""
+    print(f"{'':34s}" + "".join(f"{word:>10s}" for word in ("examples", "right", "sure", "sure, >10")))
+    for kind in sorted(set(kinds)):
+        other = kinds != kind
+        b = fitted(shown[other], right[other], weights[other], most=most)
+        told(f"{kind}, not seen", chances(b, shown[~other]), errors[~other])
+    b = fitted(shown, right, weights, most=most)
+    told("all, seen", chances(b, shown), errors)
+    print("middle and width:", " ".join(f"{value:.2f}" for value in b))
+    return b
+
+
+def print_bins(chance: np.ndarray, right: np.ndarray) -> None:
+    for low, high in ((0.0, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.9), (0.9, 1.0)):
+        some = (chance >= low) & (chance < high)
+        if some.any():
+            print(
+                f"told {low:.1f} to {high:.1f}: {some.sum():3d} examples, told {chance[some].mean():.2f}, "
+                f"right {right[some].mean():.2f}"
+            )
+
+
+def two_parts(files: list[Path]) -> None:
+    rows = [row for file in files for row in json.loads(file.read_text(encoding="utf-8"))]
+    numbers = SCORE.part.calibration_of_two
+    fits = expit(numbers.slope * (np.array([row["score"] for row in rows]) - numbers.middle))
+    chance = np.array([row["confidence"] for row in rows])
+    # The margin follows from the probability that was told.
+    doubt = np.clip(2 * (1 - chance / fits), np.exp(-SCORE.part.calibration.max_margin / numbers.tie), 1.0)
+    shown = np.stack([[row["score"] for row in rows], -numbers.tie * np.log(doubt)], axis=1)
+    kinds = np.array([(row.get("pair") or row["name"]).split(" ")[0].strip("0123456789_") for row in rows])
+    kinds = np.array([row["set"] if row["set"] != "TOSCA_r" else kind for row, kind in zip(rows, kinds, strict=True)])
+    right = np.array([is_right(row) for row in rows], dtype=float)
+    errors = np.array([100.0 if row["error"] is None else row["error"] for row in rows])
+    print_fits(kinds, shown, right, errors, np.ones(len(rows)), MOST)
+    print_bins(chance, right)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--data", type=Path)
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--two", help="files of rows, with a comma between")
     arguments = parser.parse_args()
+    if arguments.two:
+        return two_parts([Path(name) for name in arguments.two.split(",")])
     rows: list[dict[str, Any]] = []
     if arguments.json is not None and arguments.json.exists():
         rows = json.loads(arguments.json.read_text(encoding="utf-8"))
@@ -171,19 +230,8 @@ def main() -> None:
     shown = np.array([(row["score"], row["margin"]) for row in rows])
     right = (errors < RIGHT).astype(float)
     weights = np.array([1 / (cases == case).sum() for case in cases])
-    print(f"{'':34s}" + "".join(f"{word:>10s}" for word in ("examples", "right", "sure", "sure, >10")))
-    for kind in sorted(set(kinds)):
-        other = kinds != kind
-        b = fitted(shown[other], right[other], weights[other])
-        told(f"{kind}, not seen", chances(b, shown[~other]), errors[~other])
-    b = fitted(shown, right, weights)
-    chance = chances(b, shown)
-    told("all, seen", chance, errors)
-    print("middle and width:", " ".join(f"{value:.2f}" for value in b))
-    for low, high in ((0.0, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 1.0)):
-        some = (chance >= low) & (chance <= high)
-        share = right[some].mean() if some.any() else 0.0
-        print(f"said {low:.2f} to {high:.2f}: {some.sum():3d} examples, {share:.2f} right")
+    b = print_fits(kinds, shown, right, errors, weights)
+    print_bins(chances(b, shown), right)
 
 
 if __name__ == "__main__":

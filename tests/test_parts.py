@@ -194,7 +194,7 @@ def test_score_and_margin_speak_for_a_place():
     chance = partial(probability, numbers=PART)
     middle = chance(PART.middle + 1, 0.5)
     assert 0 < chance(PART.middle - 1, 0.5) < middle < chance(PART.middle + 2, 0.5) < 1
-    assert chance(PART.middle + 1, 0.0) < middle < chance(PART.middle + 1, SCORE.part.max_margin)
+    assert chance(PART.middle + 1, 0.0) < middle < chance(PART.middle + 1, PART.max_margin)
     assert chance(-1e6, 0.0) == pytest.approx(0.0)
     # Of two that are equal each is as likely, however good they are.
     assert chance(1e6, 0.0) == chance(1e6, -1.0) == 0.5
@@ -202,12 +202,15 @@ def test_score_and_margin_speak_for_a_place():
 
 
 def test_a_close_rival_makes_a_verdict_ambiguous_and_never_unlikely():
-    word, most = partial(verdict, numbers=PART), SCORE.part.max_margin
+    word, most = partial(verdict, numbers=PART), PART.max_margin
     good, bad = PART.middle + 9, PART.middle - 0.01
     assert word(good, most) == "sure"
     assert word(good, 0.0) == "ambiguous"
     assert word(bad, most) == word(bad, 0.0) == "unlikely"
     assert word(PART.middle + 0.3, most) == "likely"
+    # With the greatest margin nothing else is as good, however near "sure" is.
+    edge = next(x for x in np.arange(PART.middle, good, 0.01) if probability(x, np.inf, numbers=PART) > PART.sure)
+    assert word(edge, most) == "likely"
     for score, margin in ((1.0, 0.3), (5.0, 0.6), (1.5, 1.0), (0.1, most)):
         chance = probability(PART.middle + score, margin, numbers=PART)
         assert (word(PART.middle + score, margin) == "sure") == (chance >= PART.sure)

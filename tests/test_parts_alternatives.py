@@ -120,7 +120,7 @@ def test_polishing_ends_where_nothing_is_gained(monkeypatch):
 
 
 def test_only_candidates_that_differ_are_rivals():
-    apart, most = SCORE.part.distinct_distance / np.sqrt(3), SCORE.part.max_margin
+    apart, most = SCORE.part.distinct_distance / np.sqrt(3), SCORE.part.calibration.max_margin
     here, near, elsewhere = stub(7.0, 0.0), stub(6.9, 0.01), stub(6.6, 1.0)
     assert not _differ(here, stub(0.0, 0.99 * apart))
     assert _differ(here, stub(0.0, 1.01 * apart))
@@ -130,7 +130,7 @@ def test_only_candidates_that_differ_are_rivals():
 
 def test_a_small_part_needs_a_larger_margin():
     """A smooth patch fits everywhere: what a margin says goes with the area, and no rival at all says little."""
-    full, most = np.sqrt(SCORE.part.full_area), SCORE.part.max_margin
+    full, most = np.sqrt(SCORE.part.full_area), SCORE.part.calibration.max_margin
     best, rival = stub(9.0, 0.0), stub(8.0, 1.0)
     for scale, share in ((1.0, 1.0), (full, 1.0), (full / 2, 1 / 4)):
         best.registration.scale = scale

@@ -36,6 +36,8 @@ class Calibration:
     tie: float = 1.3
     """Margin at which the doubt that a different map casts has fallen to 1/e. A map that swaps front and back has
     preceded the right one by 2.1."""
+    max_margin: float = math.inf
+    """Margin from which more does not count, so that no other map is called as good."""
     usual_log_deformation: float = -3.6
     """Logarithm of the deformation energy of right maps at a score of 0."""
     log_deformation_per_score: float = -0.233
@@ -55,9 +57,9 @@ class Calibration:
 class PartScoring:
     """Numbers that parts are judged by; see research/parts.md for the shapes that they were chosen on."""
 
-    calibration: Calibration = field(default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2))
+    calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, max_margin=3.0))
     """Fitted by `benchmarks/parts_verdict.py`."""
-    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(slope=1 / 2.25, middle=10.75))
+    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, max_margin=3.0))
     """That of two parts, whose right placements score less; fitted by the same to `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
@@ -78,8 +80,6 @@ class PartScoring:
     """Deformation energy that any part shows, by its mesh alone."""
     distinct_distance: float = 0.1
     """Median distance between placed samples, in √area of the whole, from which two placements differ."""
-    max_margin: float = 3.0
-    """Margin from which more does not count."""
     full_area: float = 0.25
     """Area of the part, over that of the whole, from which a margin counts in full (research/parts.md)."""
     hopeless_margin: float = 5.0
@@ -393,7 +393,7 @@ def verdict(
     "ambiguous" is a map that would be called more if no other map were as good.
     """
 
-    margins = margin, math.inf
+    margins = margin, numbers.max_margin
     word, alone = (
         probability_word(probability(score, one, deformation_energy, support, numbers), numbers) for one in margins
     )

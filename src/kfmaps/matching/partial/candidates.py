@@ -147,5 +147,5 @@ def margin(found: Sequence[PartCandidate], n_landmarks: int = 0) -> float:
     others = [one.score for one in found if _differ(one, found[0])]
     share = 1.0 if n_landmarks else min(found[0].registration.scale ** 2 / SCORE.part.full_area, 1.0)
     if not others:
-        return SCORE.part.max_margin * share
-    return min((found[0].score - max(others)) * share, SCORE.part.max_margin)
+        return SCORE.part.calibration.max_margin * share
+    return min((found[0].score - max(others)) * share, SCORE.part.calibration.max_margin)
