@@ -209,3 +209,12 @@ def test_shifted_matrices_are_factorised_in_one_order(monkeypatch: pytest.Monkey
         right = scale * (stiffness @ wanted) + diagonal[:, None] * wanted
         np.testing.assert_allclose(factorize(scale, diagonal)(right), wanted, atol=1e-10)
     assert fill[0] == fill[1] < 15 * 900
+
+
+def test_the_next_look_is_where_the_residual_will_have_converged() -> None:
+    """It falls geometrically; at first nothing is known, and no step is longer than half of the wanted pairs."""
+    now = (200, 1e-3)
+    for blocks, tolerance in ((1, 3.2e-4), (2, 1e-4), (6, 1e-6)):
+        assert _lanczos._steps((184, 1e-2), now, 400, tolerance) == blocks
+    assert _lanczos._steps((184, 1e-2), now, 400, 1e-30) == 400 // (2 * _lanczos.WIDTH)
+    assert _lanczos._steps(None, now, 400, 1e-6) == _lanczos._steps(now, (216, 1e-2), 400, 1e-6) == 10

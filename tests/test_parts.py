@@ -319,6 +319,36 @@ def test_distances_decide_between_places_that_look_alike(rng):
     assert found.support > 0.9
 
 
+def test_relaxation_weighs_places_by_their_support(rng):
+    """Twelve rounds, written out: a place counts by its prior and its squared support, a sample at most half more."""
+    whole = rng.normal(size=(12, 3))
+    distances = np.linalg.norm(whole[:, None] - whole, axis=2)
+    at = rng.permutation(12)[:7]
+    part = distances[np.ix_(at, at)] * np.where(np.arange(7) < 3, 1.3, 1.0)
+    bounds, similarity = distance_bounds(np.minimum(part, part.T), rng.uniform(0, 1, 7), 1.0), rng.uniform(size=(7, 12))
+    reach, slack = 2.0, (0.02, 0.1)
+    found = relax(bounds, distances, similarity, RelaxationParams(first=7, candidates=12, reach=reach))
+    prior = np.exp((similarity - similarity.max(axis=1, keepdims=True)) / 0.1)
+    share = prior**2 / (prior**2).sum(axis=1, keepdims=True)
+    near = (bounds.upper <= reach) & ~np.eye(7, dtype=bool)
+    for _ in range(12):
+        support = np.zeros((7, 12))
+        for i, j in zip(*np.nonzero(near), strict=True):
+            fits = consistency(bounds.upper[i, j], bounds.lower[i, j], distances, slack)
+            support[i] += fits @ share[j]
+        share = prior * support**2
+        share /= share.sum(axis=1, keepdims=True)
+        most = support.max(axis=1)
+        share *= np.minimum(most / np.median(most), 1.5)[:, None]
+    assert (most > 1.5 * np.median(most)).any()
+    best = (prior * support**2).argmax(axis=1)
+    last = support[np.arange(7), best]
+    np.testing.assert_array_equal(found.match[:7], best)
+    expected = np.where(last < 0.5 * np.median(last), 0.0, np.minimum(last / np.median(last), 1.0))
+    np.testing.assert_allclose(found.trust, expected, atol=1e-5)
+    assert found.support == pytest.approx((last / near.sum(axis=1)).mean(), rel=1e-5)
+
+
 def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
     """A sum over all other samples that are trusted and reached, landmarks where they were."""
     whole = rng.normal(size=(60, 3))
