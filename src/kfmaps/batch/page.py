@@ -23,15 +23,7 @@ from kfmaps.api import render
 from kfmaps.batch.consistent import CONSISTENT, ConsistentResult, map_in_use
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.results import (
-    BAD,
-    CURVE_ERRORS,
-    Result,
-    describe_result,
-    fitting_limit,
-    summarize,
-    worst_first,
-)
+from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, describe_result, fitting_limit, summarize, worst_first
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_paths
 from kfmaps.batch.work import PairTask, map_path, true_vertices

@@ -153,11 +153,11 @@ def _polar_step(energy: Term, right: Array, here: _At, bound: float) -> tuple[_A
     return None, bound
 
 
-def _largest_curvature(energy: Term, like: Array, steps: int = 20) -> float:
+def _largest_curvature(energy: Term, like: Array) -> float:
     """The largest eigenvalue of the energy's operator, from below, by the power method from ``like``."""
     x = like + 0.01 * namespace(like).ones_like(like)
     value = 0.0
-    for _ in range(steps):
+    for _ in range(20):
         x = x / inner(x, x) ** 0.5
         applied = energy.apply(x)
         value, x = inner(x, applied), applied

@@ -34,16 +34,10 @@ def with_files(match: Match, paths: tuple[Path, Path], meshes: tuple[Mesh, Mesh]
 
 def read_shape(given: Path | None, found: Match, side: str, beside: Path) -> MeshFile:
     """Return the shape ``side`` of a map, read from :func:`mesh_path`, and warn where it has changed since."""
-    path = mesh_path(given, found, side, beside)
-    _warn_of_change(found, side, path)
-    return read_mesh_file(path)
-
-
-def _warn_of_change(found: Match, side: str, path: Path) -> None:
-    """Warn (:class:`KfmapsWarning`) when the file of ``side`` is not the one that was matched."""
-    known = getattr(found, f"{side}_file").sha256
+    path, known = mesh_path(given, found, side, beside), getattr(found, f"{side}_file").sha256
     if known and sha256(path) not in ("", known):
         warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
+    return read_mesh_file(path)
 
 
 def mesh_path(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Path:

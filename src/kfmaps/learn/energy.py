@@ -151,10 +151,7 @@ class _Implicit(torch.autograd.Function):
         return ctx.inverse(gradients[0]), None, None
 
 
-def differentiable_minimum(
-    energy: Energy,
-    solver: CG,
-) -> Minimum:
+def differentiable_minimum(energy: Energy, solver: CG) -> Minimum:
     """Minimise an energy, with derivatives in all tensors that its terms and weights were made from.
 
     Parameters

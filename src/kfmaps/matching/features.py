@@ -220,7 +220,8 @@ def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.rando
     if wanted is not None and wanted != given:
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
         raise refuse("landmarks", f"{wanted} of them, as the kernel was learned with", str(given), remedy)
-    rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
+    sides = descriptors.source, descriptors.target
+    rows = [take(D, farthest_descriptors(D, min(100, D.shape[0]), rng)) for D in sides]
     return resolve_kernel(config.kernel, namespace(rows[0]).concat(rows), config.bandwidth_scale)
 
 
@@ -264,8 +265,3 @@ def _joint_samples(
             rows = uniform(D.shape[0], count, rng)
         taken.append(take(D, rows))
     return xp.concat(taken)
-
-
-def _farthest_rows(D: Array, count: int, rng: np.random.Generator) -> Array:
-    rows = farthest_descriptors(D, min(count, D.shape[0]), rng)
-    return take(D, rows)

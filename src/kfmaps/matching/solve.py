@@ -69,7 +69,10 @@ def minimize_problem(
     how = MinimizeOptions(config.solver, config.preconditioner, asked.max_outer_iter)
     if asked.weighs_features or asked.coupled_bases or asked.transport_weight:
         start = minimize(Objective(task.energy), how, start, told).value
-    rotation = _rotation(task, start, config) if asked.coupled_bases and start is not None else None
+    rotation = None
+    if asked.coupled_bases and start is not None:  # the bases that the least-squares map speaks for
+        values = [basis.eigenvalues for basis in task.bases]
+        rotation = couple_bases(*values, start, asked.coupling_weight, start=start)
     forth = objective(task, config, start, rotation)
     if not asked.bidirectional:
         solution = minimize(forth, how, start, told)
@@ -115,12 +118,6 @@ def objective(
             weight, penalty = penalties["sparsity"]
             penalties["sparsity"] = (weight, RotatedPenalty(penalty, *U))
     return Objective(energy, penalties, asked.constraint)
-
-
-def _rotation(task: FitProblem, plain: Array, config: Config) -> CoupledBases:
-    """Coupled bases that the least-squares map speaks for."""
-    values = [basis.eigenvalues for basis in task.bases]
-    return couple_bases(values[0], values[1], plain, config.formulation.coupling_weight, start=plain)
 
 
 def typical(energy: Energy) -> float:

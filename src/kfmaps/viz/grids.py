@@ -86,7 +86,8 @@ def grid_figure(
         cells.append((item.label, item.mesh, transfer(colors, item.target_to_source, source.faces, LOST_GREY), seen))
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
-    half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03
+    sizes = [np.ptp(mesh.vertices @ seen.axes().T, axis=0)[:2] / _scale(mesh) for _, mesh, _, seen in cells]
+    half = np.max(sizes, axis=0) / 2 * 1.03
     tall = 0.88 * _PANEL * float(np.clip(half[1] / half[0], 0.4, 2.5)) + _LABEL
     if columns is None:
         rows = max(1, round(len(cells) / max(1.0, np.sqrt(1.5 * len(cells) * tall / _PANEL))))
@@ -112,11 +113,6 @@ def grid_figure(
     if title:
         figure.text(0.5, 1 - 0.12 / height, title, ha="center", va="top", fontsize=12, parse_math=False)
     return figure
-
-
-def _half(mesh: Mesh, seen: View) -> np.ndarray:
-    """Half the width and height (2,) of a shape in its view."""
-    return np.ptp(mesh.vertices @ seen.axes().T, axis=0)[:2] / 2
 
 
 def _scale(mesh: Mesh) -> float:

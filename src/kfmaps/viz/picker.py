@@ -45,18 +45,15 @@ def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def _is_name(name: object) -> bool:
-    return isinstance(name, str) and len(name) <= _LONGEST_NAME
-
-
 def _check_names(names: object, count: int) -> list[str]:
     """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
     if names is None:
         return [""] * count
-    if not isinstance(names, list) or len(names) != count or not all(map(_is_name, names)):
+    known = names if isinstance(names, list) else [None]
+    if len(known) != count or not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in known):
         wanted = f"{count} texts of at most {_LONGEST_NAME} letters"
         raise refuse("names", wanted, "something else", "give one for each pair")
-    return names
+    return known
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,16 +11,7 @@ import typer
 from kfmaps._arrays import refuse
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
-from kfmaps.io import (
-    Values,
-    check_map,
-    check_output,
-    load_map,
-    save_map,
-    write_colored,
-    write_textured,
-    write_values,
-)
+from kfmaps.io import Values, check_map, check_output, load_map, save_map, write_colored, write_textured, write_values
 from kfmaps.io.export import write_morph
 from kfmaps.io.provenance import read_shape
 from kfmaps.io.text import check_suffix
