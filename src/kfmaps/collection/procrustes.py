@@ -100,13 +100,12 @@ def geometric_median(points: np.ndarray) -> np.ndarray:
     """
     there = np.asarray(np.isfinite(points).all(axis=2))
     values = np.where(there[..., None], points, 0.0)
-    weight = there.astype(np.float64)
-    with np.errstate(invalid="ignore"):
-        median = (weight[..., None] * values).sum(axis=0) / np.asarray(weight.sum(axis=0))[:, None]
-    floor = 1e-9 * (np.abs(values).max(initial=0.0) + 1e-300)
-    for _ in range(MAX_ROUNDS):
-        distance = np.linalg.norm(values - median, axis=2)
-        pull = np.where(there, 1.0 / np.maximum(distance, floor), 0.0)
+
+    def mean(weight: np.ndarray) -> np.ndarray:
         with np.errstate(invalid="ignore"):
-            median = (pull[..., None] * values).sum(axis=0) / pull.sum(axis=0)[:, None]
+            return (weight[..., None] * values).sum(axis=0) / np.asarray(weight.sum(axis=0))[:, None]
+
+    median, floor = mean(there.astype(np.float64)), 1e-9 * (np.abs(values).max(initial=0.0) + 1e-300)
+    for _ in range(MAX_ROUNDS):
+        median = mean(np.where(there, 1.0 / np.maximum(np.linalg.norm(values - median, axis=2), floor), 0.0))
     return median

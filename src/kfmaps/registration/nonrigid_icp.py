@@ -104,33 +104,6 @@ class NonRigid:
         InvalidInput
             When one of them is a point cloud, or the map does not fit.
         """
-        pair, x, gap = self._bent(source, target, target_to_source, progress, landmarks, held)
-        found = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
-        energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
-        return Registration(x, found.faces, found.weights, energy, gap)
-
-    def vertices(
-        self,
-        source: Mesh,
-        target: Mesh,
-        target_to_source: np.ndarray,
-        progress: Callable[[float], None] | None = None,
-        landmarks: np.ndarray | None = None,
-        held: np.ndarray | None = None,
-    ) -> np.ndarray:
-        """Return :attr:`Registration.vertices` alone, without the search for where the target's vertices lie."""
-        return self._bent(source, target, target_to_source, progress, landmarks, held)[1]
-
-    def _bent(
-        self,
-        source: Mesh,
-        target: Mesh,
-        target_to_source: np.ndarray,
-        progress: Callable[[float], None] | None,
-        landmarks: np.ndarray | None,
-        held: np.ndarray | None,
-    ) -> tuple[MeshPair, np.ndarray, float]:
-        """Both surfaces, the source's vertices (n_s, 3) on the target, and the gap."""
         for mesh, name in ((source, "source"), (target, "target")):
             if len(mesh.faces) == 0:
                 raise refuse(name, "a surface with faces", "a point cloud", "leave out the non-rigid fit")
@@ -141,7 +114,10 @@ class NonRigid:
         if max(len(source.vertices), len(target.vertices)) > _PROXY_FROM:
             x = self._of_copies(source, target, points, lambda done: report(0.3 * done), marks, held)
         pair = mesh_pair(deformable_mesh(source), target)
-        return pair, *self.bent(pair, points, x, report, marks, held)
+        x, gap = self.bent(pair, points, x, report, marks, held)
+        found = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
+        energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
+        return Registration(x, found.faces, found.weights, energy, gap)
 
     def _of_copies(
         self,
@@ -158,12 +134,11 @@ class NonRigid:
             for side, mesh in enumerate((source, target))
         )
         report(0.1)
-        bent = self.vertices(
-            a.mesh,
-            b.mesh,
+        bent, _ = self.bent(
+            mesh_pair(deformable_mesh(a.mesh), b.mesh),
             a.owner[points[b.vertices]],
-            lambda done: report(0.1 + 0.9 * done),
-            landmarks=np.stack([a.owner[marks[:, 0]], b.owner[marks[:, 1]]], axis=1),
+            report=lambda done: report(0.1 + 0.9 * done),
+            marks=np.stack([a.owner[marks[:, 0]], b.owner[marks[:, 1]]], axis=1),
             held=None if held is None else held[b.vertices],
         )
         return embedded_deformation(a, source, bent, rotations(build_arap(a.mesh), bent))
