@@ -71,8 +71,8 @@ def minimize_problem(
         start = minimize(Objective(task.energy), how, start, told).value
     rotation = None
     if asked.coupled_bases and start is not None:  # the bases that the least-squares map speaks for
-        values = [basis.eigenvalues for basis in task.bases]
-        rotation = couple_bases(*values, start, asked.coupling_weight, start=start)
+        one, other = (basis.eigenvalues for basis in task.bases)
+        rotation = couple_bases(one, other, start, asked.coupling_weight, start=start)
     forth = objective(task, config, start, rotation)
     if not asked.bidirectional:
         solution = minimize(forth, how, start, told)

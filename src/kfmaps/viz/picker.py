@@ -49,8 +49,9 @@ def _check_names(names: object, count: int) -> list[str]:
     """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
     if names is None:
         return [""] * count
-    known = names if isinstance(names, list) else [None]
-    if len(known) != count or not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in known):
+    given = names if isinstance(names, list) else []
+    known = [name for name in given if isinstance(name, str) and len(name) <= _LONGEST_NAME]
+    if not isinstance(names, list) or not len(known) == len(names) == count:
         wanted = f"{count} texts of at most {_LONGEST_NAME} letters"
         raise refuse("names", wanted, "something else", "give one for each pair")
     return known
