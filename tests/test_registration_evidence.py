@@ -69,7 +69,7 @@ def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypat
     mesh = creatures[0].mesh
     monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
     here = _surface_samples(mesh)
-    at = np.arange(0, len(mesh.vertices), looks._SAMPLE_STEP)
+    at = np.arange(0, len(mesh.vertices), 6)
     np.testing.assert_array_equal(here.descriptors[:, 0], at)
     assert _shot_difference(here, mesh) == 0
     moved = replace(here, descriptors=here.descriptors + np.array([3.0, 4.0]))

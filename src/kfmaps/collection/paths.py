@@ -44,31 +44,26 @@ def best_path(
 ) -> MapPath | None:
     """Return the path from ``source`` to ``target`` whose maps are most probably all right; ``None`` without one.
 
-    ``around``: edges are gone through both ways. ``probabilities``: That the map of each edge is right. Of equally
-    probable paths the one of the fewest edges is taken, then of the lowest numbers. ``without``: an edge that is not to
-    be used.
+    Of equally probable paths the one of the fewest edges is taken, then of the lowest numbers. ``without``: an edge
+    that is not to be used; the rest as for :func:`best_paths`.
     """
-    return _dijkstra(around, probabilities, source, target, without).get(target)
+    return best_paths(around, probabilities, source, target, without).get(target)
 
 
-def best_paths(around: Adjacency, probabilities: Sequence[float], source: int) -> dict[int, MapPath]:
-    """Return the :func:`best_path` from one shape to each that can be reached, itself too, the most probable first.
-
-    A path without its last step is the best path to where that begins, so points can be carried step by step.
-
-    ``probabilities``: that the map of each edge is right.
-    """
-    return _dijkstra(around, probabilities, source)
-
-
-def _dijkstra(
+def best_paths(
     around: Adjacency,
     probabilities: Sequence[float],
     source: int,
     target: int | None = None,
     without: int | None = None,
 ) -> dict[int, MapPath]:
-    """Search from ``source``, until ``target`` is found (Dijkstra)."""
+    """Return the :func:`best_path` from one shape to each that can be reached, itself too, the most probable first.
+
+    A path without its last step is the best path to where that begins, so points can be carried step by step.
+
+    ``around``: edges are gone through both ways; ``probabilities``: that the map of each edge is right; ``target``: the
+    search (Dijkstra's) ends there.
+    """
     queue: list[tuple[float, int, tuple[int, ...], tuple[int, ...]]] = [(0.0, 0, (source,), ())]
     found: dict[int, MapPath] = {}
     min_probability = 1e-6  # probability below which a pair is on no path

@@ -223,7 +223,7 @@ class _Repair:
 def _two_step_paths(
     around: Adjacency, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], edge: int
 ) -> list[CyclePath]:
-    """Return at most :data:`_N_TWO_STEP` paths of two steps around an edge, by the maps in use, best scores first.
+    """Return at most three paths of two steps around an edge, by the maps in use, best scores first.
 
     What most candidates say may be wrong together. These say what the maps say that a search thought best.
     """
@@ -239,7 +239,7 @@ def _two_step_paths(
         steps = (CycleStep(first, 0, ends[first][0] == source), CycleStep(second, 0, ends[second][0] == middle))
         found.append((min(maps[first][0].score, maps[second][0].score), CyclePath(steps, (middle,))))
     found.sort(key=lambda item: -item[0])
-    return [path for _, path in found[:3]]  # paths of two steps by the maps in use that are tried for a doubted pair
+    return [path for _, path in found[:3]]
 
 
 def _synchronize(
