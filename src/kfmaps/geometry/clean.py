@@ -117,7 +117,7 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
     """
     faces, originals = part.mesh.faces, part.faces_to_original
     doubled = doubled_faces(faces)
-    if doubled.mean() > _MANY_DOUBLED:
+    if doubled.sum() > _MANY_DOUBLED * len(faces):
         faces, originals = faces[~doubled], originals[~doubled]
         part = replace(part, mesh=Mesh(part.mesh.vertices, faces), faces_to_original=originals, doubled=doubled.sum())
     turned = inward_faces(part.mesh)
