@@ -245,7 +245,7 @@ def followed(off: float, fit: NonRigid) -> float:
     body = unit_area(blob(250))
     from_there = np.linalg.norm(body.vertices - body.vertices[3], axis=1)
     to = np.abs(from_there - off).argmin()
-    bent = fit.vertices(body, body, np.arange(250), landmarks=np.array([[3, to]]))
+    bent = fit(body, body, np.arange(250), landmarks=np.array([[3, to]])).vertices
     return 1 - float(np.linalg.norm(bent[3] - body.vertices[to]) / from_there[to])
 
 

@@ -102,7 +102,7 @@ def test_bodies_of_other_proportions_slide_less() -> None:
     every = np.arange(len(x))
     stiff = NonRigid(stiffness=5e-3, n_levels=2, steps=4)
     off = [
-        float(np.linalg.norm(fit.vertices(source, target, every) - target.vertices, axis=1).mean())
+        float(np.linalg.norm(fit(source, target, every).vertices - target.vertices, axis=1).mean())
         for fit in (stiff, replace(stiff, local_scaling=0.05))
     ]
     assert off[1] < 0.7 * off[0]
