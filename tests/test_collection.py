@@ -20,6 +20,7 @@ from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_m
 from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
+from kfmaps.descriptors.spectral import log_heat_signature
 from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.basis import Basis
 
@@ -119,6 +120,8 @@ def test_signatures_are_those_of_the_shape() -> None:
     signs = rng.choice([-1.0, 1.0], 40)
     np.testing.assert_allclose(one, signature(Basis(values, functions[order] * signs, mass[order])), atol=1e-12)
     assert np.abs(one - signature(Basis(1.3 * values, functions, mass))).max() > 0.1
+    heat = log_heat_signature(Basis(values, functions, mass))
+    np.testing.assert_allclose(one[30:].reshape(7, 8)[[0, 3, 6]], np.percentile(heat, [5, 50, 95], axis=0))
     few = signature(Basis(values[:10], functions[:, :10], mass))
     assert few.shape == one.shape
     assert np.isfinite(few).all()
