@@ -18,8 +18,6 @@ from kfmaps.fmap.losses import Penalty
 from kfmaps.fmap.terms import Term
 from kfmaps.geometry.basis import Basis
 
-_MAX_STEPS, _RTOL = 100, 1e-6  # it ends when the objective falls by less than this part of it
-
 
 @dataclass(frozen=True, eq=False)
 class CoupledBases:
@@ -81,20 +79,16 @@ def couple_bases(
         U_t = nearest_orthogonal(start)
     sides = [values / (float(xp.sum(values * values)) ** 0.5 or 1.0) for values in (values_s, values_t)]
 
-    def kept(values: Array, U: Array) -> Array:
-        """The diagonal of ``Uᵀ Λ U``."""
-        return xp.sum(U * (values[:, None] * U), axis=0)
-
     def objective() -> float:
-        off = [float(xp.sum(v * v) - xp.sum(kept(v, U) ** 2)) for v, U in zip(sides, (U_s, U_t), strict=True)]
+        off = [float(xp.sum(v * v) - xp.sum(_diagonal(v, U) ** 2)) for v, U in zip(sides, (U_s, U_t), strict=True)]
         return 0.5 * sum(off) - float(xp.sum((pull @ U_s)[:, : min(k_t, k_s)] * U_t[:, : min(k_t, k_s)]))
 
     history = [objective()]
-    for _ in range(_MAX_STEPS):
-        U_s = nearest_orthogonal(_tangent(sides[0], U_s, kept(sides[0], U_s)) + _padded(pull.T @ U_t, k_s))
-        U_t = nearest_orthogonal(_tangent(sides[1], U_t, kept(sides[1], U_t)) + _padded(pull @ U_s, k_t))
+    for _ in range(100):
+        U_s = nearest_orthogonal(_tangent(sides[0], U_s, _diagonal(sides[0], U_s)) + _padded(pull.T @ U_t, k_s))
+        U_t = nearest_orthogonal(_tangent(sides[1], U_t, _diagonal(sides[1], U_t)) + _padded(pull @ U_s, k_t))
         history.append(objective())
-        if history[-2] - history[-1] <= _RTOL * max(abs(history[-2]), 1e-300):
+        if history[-2] - history[-1] <= 1e-6 * max(abs(history[-2]), 1e-300):
             break
     return CoupledBases(U_s, U_t, np.asarray(history))
 
@@ -113,11 +107,14 @@ def _padded(pull: Array, k: int) -> Array:
     return xp.concat([pull, extra], axis=1)
 
 
+def _diagonal(values: Array, U: Array) -> Array:
+    """The diagonal of ``Uᵀ Λ U``."""
+    return namespace(U).sum(U * (values[:, None] * U), axis=0)
+
+
 def _rotated(basis: Basis, U: Array) -> Basis:
     k = U.shape[0]
-    xp = namespace(U)
-    values = basis.eigenvalues[:k]
-    return Basis(xp.sum(U * (values[:, None] * U), axis=0), basis.functions[:, :k] @ U, basis.mass)
+    return Basis(_diagonal(basis.eigenvalues[:k], U), basis.functions[:, :k] @ U, basis.mass)
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,7 @@ All are concave in ``e``, which is what makes the reweighted term lie above them
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, Protocol
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.terms import Elementwise, GramTerm, Term, operator_term
 
 LossName = Literal["squared", "huber", "l21", "geman"]
-_LOSSES: tuple[LossName, ...] = ("squared", "huber", "l21", "geman")
+_LOSSES = get_args(LossName)
 
 
 class Penalty(Protocol):
