@@ -106,7 +106,7 @@ class _Path:
 
 def _distinct(points: np.ndarray, rows: Sequence[int]) -> np.ndarray:
     """Those of ``rows`` that lie apart from the ones before: between two in one place a spline may bend without end."""
-    # distance of landmarks that count as one, such as one at the end of a curve, in the centroid size
+    # Landmarks so near, in the centroid size, count as one, such as one at the end of a curve.
     coincident = 1e-3
     near = coincident * np.linalg.norm(points[rows] - points[rows].mean(axis=0)) if rows else 0.0
     found: list[int] = []
