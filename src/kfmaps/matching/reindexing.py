@@ -28,7 +28,7 @@ class VertexReindexing:
         """Whether numbers are the same on both sides."""
         return self.part_s.whole and self.part_t.whole
 
-    def landmarks(self, given: np.ndarray | None) -> np.ndarray | None:
+    def landmarks(self, given: Array) -> Array:
         """Landmarks ``(l, 2)`` outside as those inside; ``None`` stays."""
         if given is None or self.open:
             return given
