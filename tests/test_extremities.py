@@ -9,12 +9,14 @@ from kfmaps import datasets
 from kfmaps._arrays import NotConverged
 from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.geometry.coarsen import CoarseProxy
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import refine_coarse
 from kfmaps.matching.extremities import _MIN_DISTANCE, _gradient_cross, extremities
 from kfmaps.matching.extremity_matching import (
     FEWEST,
     ExtremityMatch,
+    ExtremityVertices,
     extremity_cost,
     extremity_features,
     extremity_similarity,
@@ -324,3 +326,15 @@ def test_a_map_that_is_judged_again_is_bent_once(creature, probes, monkeypatch):
     assert len(fits) == 2  # forth and back
     deform(np.eye(40), both, PATIENT)
     assert len(fits) == 4
+    assert all(fits[i] is fits[i + 2] for i in range(2))  # and its points are sought once
+
+
+def test_guidance_by_extremities_is_the_same_with_the_graphs_at_hand(creature):
+    source, target = (shape.mesh for shape in creature[:2])
+    on_both = ExtremityVertices(np.array([0, 7, 30]), np.array([3, 9, 40]), (0.5, 0.6))
+    plain, given = (
+        on_both.guide(source, target, graphs)
+        for graphs in ((None, None), (geodesic_graph(source, 1), geodesic_graph(target, 1)))
+    )
+    assert np.array_equal(plain.source, given.source)
+    assert np.array_equal(plain.target, given.target)

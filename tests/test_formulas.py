@@ -34,7 +34,7 @@ from kfmaps.fmap.zoomout import ZoomOut, fit_functional_map
 from kfmaps.geometry import geodesics
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
-from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
+from kfmaps.geometry.mesh import Mesh, face_areas, face_normals, surface_area, unit_area, vertex_areas
 from kfmaps.geometry.sampling import SampledBasis, _embedded, spectral_samples
 from kfmaps.kernels.kernels import Gaussian, Laplacian, _squared_distances, resolve_kernel
 from kfmaps.kernels.landmark_selection import farthest_descriptors
@@ -116,6 +116,9 @@ def test_areas_are_areas():
     """Of a right triangle, of its corners, and of anything once it is scaled to one."""
     triangle = Mesh(np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]]), np.array([[0, 1, 2]]))
     assert face_areas(triangle) == pytest.approx(6)
+    tilted = np.array([[0.3, -1.0, 2.0], [1.1, 0.4, -0.7], [-0.6, 2.2, 0.9]])
+    normal = np.cross(tilted[1] - tilted[0], tilted[2] - tilted[0])
+    np.testing.assert_allclose(face_normals(Mesh(tilted, triangle.faces))[0], normal / np.linalg.norm(normal))
     assert vertex_areas(triangle) == pytest.approx(2)
     for mesh in (triangle, blob(100)):
         assert surface_area(mesh) == pytest.approx(vertex_areas(mesh).sum())

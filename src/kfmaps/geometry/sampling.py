@@ -16,6 +16,8 @@ from kfmaps._arrays import check_count, like, take, to_numpy
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 
+_DIMENSIONS = 39  # coordinates of the embedding: 40 functions, the constant among them
+_STRATA_DIMENSIONS = 8  # coordinates of the embedding that strata are cut by
 _POOL_SIZE = 8_000
 """Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
 
@@ -123,26 +125,27 @@ def stratified_vertices(
 
     ``rng`` is a seed or a Generator; ``kept (l,)`` are vertices that are taken as well.
     """
-    candidates, _, chosen = _strata(basis, count, rng)
+    candidates, _, chosen = _strata(basis, count, rng, _STRATA_DIMENSIONS)
     return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)
 
 
-def _strata(basis: Basis, count: int, rng: int | np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _strata(
+    basis: Basis, count: int, rng: int | np.random.Generator, dimensions: int = _DIMENSIONS
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertices that have an area, their places in the embedding, and which of them are drawn."""
     check_count(count, "sample count")
-    candidates, embedding = _embedded(basis)
+    candidates, embedding = _embedded(basis, dimensions)
     return candidates, embedding, stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
 
 
-def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices that have an area, and their places in the biharmonic embedding."""
+def _embedded(basis: Basis, dimensions: int = _DIMENSIONS) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices that have an area, and their first coordinates in the biharmonic embedding."""
     candidates = np.flatnonzero(to_numpy(basis.mass) > 0)
     values, functions = to_numpy(basis.eigenvalues), to_numpy(basis.functions)
-    # 40 functions, the constant among them.
-    positive = np.flatnonzero(values > eigenvalue_tolerance(basis))[:39]
+    positive = np.flatnonzero(values > eigenvalue_tolerance(basis))[:_DIMENSIONS]
     if len(positive) == 0:  # more components than functions, which tell them apart
         return candidates, functions[candidates]
-    positive = positive[values[positive] > 1e-6 * values[positive[-1]]]
+    positive = positive[values[positive] > 1e-6 * values[positive[-1]]][:dimensions]
     places = functions[:, positive] / values[positive]
     return candidates, places if len(candidates) == len(places) else np.asfortranarray(places[candidates])
 
@@ -166,7 +169,7 @@ def stratified(
     (q,) int64
         Rows in ascending order: ``count`` or, where one is drawn twice, fewer.
     """
-    order = KDTree(embedding[:, :8]).indices  # coordinates of the embedding that strata are cut by
+    order = KDTree(embedding[:, :_STRATA_DIMENSIONS]).indices
     reached = np.cumsum(mass[order])
     drawn = (np.arange(count) + np.random.default_rng(rng).random(count)) / count
     return np.unique(order[np.searchsorted(reached / reached[-1], drawn).clip(max=len(order) - 1)])

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations, permutations
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import Mesh
@@ -153,15 +154,17 @@ class ExtremityVertices:
     target: np.ndarray
     units: tuple[float, float]
 
-    def guide(self, source: Mesh, target: Mesh) -> DescriptorGuidance:
-        """Return the features of all vertices, whose squared differences are twice :func:`extremity_cost`."""
+    def guide(
+        self, source: Mesh, target: Mesh, graphs: tuple[csr_array | None, csr_array | None] = (None, None)
+    ) -> DescriptorGuidance:
+        """Return the features of all vertices, whose squared differences are twice :func:`extremity_cost`.
+
+        ``graphs``: geodesic graphs of both meshes, of depth 1, where they are there already.
+        """
         everything = np.arange(len(self.source))
-        sides = ((source, self.source), (target, self.target))
+        sides = zip((source, target), (self.source, self.target), self.units, graphs, strict=True)
         return DescriptorGuidance(
-            *(
-                np.sqrt(2.0) * extremity_features(at_all_vertices(mesh, at, unit), everything)
-                for (mesh, at), unit in zip(sides, self.units, strict=True)
-            )
+            *(np.sqrt(2.0) * extremity_features(at_all_vertices(*side), everything) for side in sides)
         )
 
 

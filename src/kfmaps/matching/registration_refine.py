@@ -11,11 +11,13 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from kfmaps._arrays import NotConverged
 from kfmaps._progress import Done, Progress
 from kfmaps._threads import parallel
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.matching.candidates import FINE, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityVertices,
@@ -57,6 +59,7 @@ class RepairSetting:
     samples: SamplePair
     landmarks: np.ndarray
     shot: DescriptorGuidance | None
+    graphs: tuple[csr_array, csr_array]  # geodesic graphs of both meshes, of depth 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,9 +103,8 @@ def refine_by_registration(
         return ranked, ()
     source, target = copies.source, copies.image
     pair = registration_pair(source, target, finer.copies, landmarks)
-    setting = RepairSetting(
-        source, target, pair, finer, samples, landmarks, descriptor_guidance(source.shot, target.shot)
-    )
+    shot, graphs = descriptor_guidance(source.shot, target.shot), [geodesic_graph(s.mesh, 1) for s in (source, target)]
+    setting = RepairSetting(source, target, pair, finer, samples, landmarks, shot, (graphs[0], graphs[1]))
     near, rest = repairable(ranked, samples.source)
     begun = _begin(near, samples)
     done = np.zeros(len(begun))
@@ -136,7 +138,7 @@ def _repair(
 ) -> Candidate | None:
     """Register and refine one candidate in turn; ``swapped``: the target onto the source. ``None`` where it fails."""
     source, target = setting.source, setting.target
-    limbs = extremities and extremities.guide(source.mesh, target.mesh)
+    limbs = extremities and extremities.guide(source.mesh, target.mesh, setting.graphs)
     guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
     found = register_map_on_proxies(
         old.functional_map, setting.pair, guidance, swapped, lambda part: progress(0.9 * part)

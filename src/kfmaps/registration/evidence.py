@@ -124,7 +124,11 @@ def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndar
     a, b = pair.copies
     images = to_numpy(pair.source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(pair.target.basis.functions)[b.vertices, :k_t])
-    return (pair.forth, nearest(rows, images, threads=1)), (pair.back, nearest(images, rows, threads=1))
+    forth, back = (
+        way.once((k_t, C.tobytes()), lambda places=places: nearest(*places, threads=1))
+        for way, places in ((pair.forth, (rows, images)), (pair.back, (images, rows)))
+    )
+    return (pair.forth, forth), (pair.back, back)
 
 
 def _bent(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -38,6 +39,8 @@ from kfmaps.registration.deformable import (
     initial_deformation,
 )
 from kfmaps.registration.local_scaling import local_scaling
+
+_Kept = TypeVar("_Kept")
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000
 """Vertices above which the fit begins with coarse copies, and vertices of a copy: 1.4 % of √area apart, finer than what
@@ -165,7 +168,8 @@ class NonRigid:
             x = pair.once(points.tobytes(), lambda: initial_deformation(pair.body, points, *places))
             report(begun)
         even = _evened(pair, self.rotation_smoothing)
-        stretched = local_scaling(pair.body.energy, pair.body.areas, self.local_scaling)
+        area = self.local_scaling
+        stretched = pair.once(("sizes", area), lambda: local_scaling(pair.body.energy, pair.body.areas, area))
         marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
         discs = _discs(pair, marks)
         hold, fading = _SCALED_LANDMARK_PULL if self.local_scaling else _LANDMARK_PULL
@@ -198,9 +202,9 @@ class MeshPair:
     target: Mesh
     areas_t: np.ndarray
     look_t: ClosestPointQuery
-    kept: dict[object, np.ndarray] = field(default_factory=dict)  # what :meth:`once` has made
+    kept: dict[object, Any] = field(default_factory=dict)  # what :meth:`once` has made
 
-    def once(self, key: object, make: Callable[[], np.ndarray]) -> np.ndarray:
+    def once(self, key: object, make: Callable[[], _Kept]) -> _Kept:
         """Return what ``make`` returns, made once for each ``key``: several fits begin alike, and some are repeated."""
         if key not in self.kept:
             self.kept[key] = make()

@@ -210,16 +210,16 @@ def _nearly(
         found = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng, each=each)
     except NotConverged:
         return None
-    vectors = found.vectors[:, :k] / pencil.root[:, None]
+    vectors = found.vectors[:, :k]
+    vectors /= pencil.root[:, None]  # in place: of a large mesh they are the most that is kept
     values, residuals = pencil.residuals(vectors)
     thought = 1 / found.values[:k] - _LOOSE_SHIFT * pencil.unit
     if not (np.abs(thought - values) <= 1e-3 * (values + pencil.unit)).all():
         return None
     if found.stages > 1:
-        vectors = _improved(pencil, found.vectors[:, :k])
+        vectors = _improved(pencil, pencil.root[:, None] * vectors)
         values, residuals = pencil.residuals(vectors)
-    by_size = np.argsort(values, kind="stable")
-    return Eigenpairs(values[by_size], vectors[:, by_size], residuals[by_size])
+    return _ascending(values, vectors, residuals)
 
 
 def _counted(
@@ -321,8 +321,15 @@ def _checked(
             f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
             f"{residuals[bad].max():.1e}. Look for parts without area, or for coordinates of very different size."
         )
+    return _ascending(values, vectors, residuals)
+
+
+def _ascending(values: np.ndarray, vectors: np.ndarray, residuals: np.ndarray) -> Eigenpairs:
+    """The pairs by their values; the columns of ``vectors (n, k)`` change places in it."""
     order = np.argsort(values, kind="stable")
-    return Eigenpairs(values[order], vectors[:, order], residuals[order])
+    moved = np.flatnonzero(order != np.arange(len(order)))
+    vectors[:, moved] = vectors[:, order[moved]]
+    return Eigenpairs(values[order], vectors, residuals[order])
 
 
 def _signed(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
@@ -331,6 +338,5 @@ def _signed(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
     if order is not None:
         vectors = np.empty_like(pairs.vectors)
         vectors[order] = pairs.vectors
-    largest = np.abs(vectors).argmax(axis=0)
-    vectors *= np.where(vectors[largest, np.arange(len(pairs.values))] < 0, -1.0, 1.0)
+    vectors[:, vectors.max(axis=0) < -vectors.min(axis=0)] *= -1.0
     return Eigenpairs(pairs.values, vectors, pairs.residuals)
