@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -13,7 +13,7 @@ from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import KfmapsWarning, refuse, take
-from kfmaps._progress import Progress
+from kfmaps._progress import Progress, StageTimer
 from kfmaps._records import short_repr
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
@@ -141,6 +141,7 @@ def prepare(
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
+    clock = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     part = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud = len(mesh.faces) == 0
     small = unit_area(part.mesh)
@@ -157,35 +158,17 @@ def prepare(
             mesh = Mesh(surface.vertices[part.to_clean], part.to_original[surface.faces])
             part = clean_mesh(mesh, specks=True)
             small = unit_area(part.mesh)
-    seconds = {}
-    start = time.perf_counter()
-    report(f"eigenfunctions of {name}", 0.0)
-    basis = laplace_basis(
-        small,
-        wanted,
-        config.basis.laplacian,
-        threads=config.threads,
-        progress=lambda done: report(f"eigenfunctions of {name}", done),
-        tolerance=EXACT if len(small.vertices) <= FEW else NEARLY,
-    )
-    seconds["eigenfunctions"] = time.perf_counter() - start
-    report(f"eigenfunctions of {name}", 1.0)
-    local = None
+    kind, radius, threads = config.basis.laplacian, config.descriptors.shot_radius, config.threads
+    tolerance, local = EXACT if len(small.vertices) <= FEW else NEARLY, None
+    with clock("eigenfunctions"):
+        told = partial(clock.report, "eigenfunctions")
+        basis = laplace_basis(small, wanted, kind, threads=threads, progress=told, tolerance=tolerance)
     if config.descriptors.shot and len(mesh.faces):
-        start = time.perf_counter()
-        report(f"SHOT of {name}", 0.0)
-        local = _local_descriptors(
-            small,
-            basis,
-            config.descriptors.shot_radius,
-            config.threads,
-            lambda done: report(f"SHOT of {name}", min(done, 0.99)),
-        )
-        seconds["SHOT"] = time.perf_counter() - start
-        report(f"SHOT of {name}", 1.0)
-    radius = None if local is None else config.descriptors.shot_radius
+        with clock("SHOT"):
+            local = _local_descriptors(small, basis, radius, threads, lambda d: clock.report("SHOT", min(d, 0.99)))
+    radius = None if local is None else radius
     size = None if is_cloud else float(np.sqrt(surface_area(part.mesh)))
-    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, seconds, config.basis.laplacian, radius, size)
+    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, clock.seconds, kind, radius, size)
     if part.whole:
         return shape
     mass = np.zeros(len(mesh.vertices))
