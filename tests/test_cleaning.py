@@ -84,8 +84,7 @@ def littered(mesh: Mesh) -> Mesh:
 
 
 def quietly(mesh: Mesh, config: Config = SMALL):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
         return prepare(mesh, config)
 
 
@@ -274,8 +273,7 @@ def test_faces_that_name_a_vertex_twice_change_nothing(side: int) -> None:
     config = replace(SMALL, registration=NonRigid(n_levels=2, steps=2))
     marks = np.stack([np.arange(0, 300, 60)] * 2, axis=1)
     plain = match(clean, clean, config, landmarks=marks)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
         found = match(*((dirty, clean) if side == 0 else (clean, dirty)), config, landmarks=marks)
     assert np.array_equal(found.target_to_source, plain.target_to_source)
     corners = [one.precise().faces for one in (found, plain)]

@@ -35,8 +35,7 @@ CONTENTS = {
 def mesh_or_none(path: Path, cloud: bool = True) -> Mesh | None:
     """The mesh, or None when the file is refused in one line."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KfmapsWarning)
+        with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
             return read_mesh(path, cloud=cloud)
     except InvalidInput as error:
         if "\n" in str(error):

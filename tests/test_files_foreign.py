@@ -330,8 +330,7 @@ def test_glb_with_other_values_in_its_tree(tmp_path: Path) -> None:
     outcomes = set()
     for _ in range(300):
         (tmp_path / "a.glb").write_bytes(rewritten(change))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KfmapsWarning)
+        with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
             try:
                 outcomes.add(len(read_mesh(tmp_path / "a.glb").vertices) > 0)
             except InvalidInput as error:

@@ -310,8 +310,7 @@ FORTRAN = {
 @pytest.mark.parametrize("suffix", FORTRAN)
 def test_numbers_as_fortran_writes_them(tmp_path: Path, suffix: str) -> None:
     (tmp_path / f"a{suffix}").write_text(FORTRAN[suffix])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
         mesh = read_mesh(tmp_path / f"a{suffix}")
     np.testing.assert_array_equal(mesh.vertices, [[1, -0.2, 0.5], [1, 0, 0], [0, 1, 0]])
     assert mesh.faces.tolist() == ([] if suffix == ".xyz" else [[0, 1, 2]])

@@ -87,8 +87,7 @@ class WorkerPool:
         self._client = None
         if self._deaths:
             # The connection to a worker that died is closed by the garbage collector, which warns of it.
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", ResourceWarning)
+            with warnings.catch_warnings(action="ignore", category=ResourceWarning):
                 gc.collect()
 
     def _note_event(self, event: tuple[float, Any]) -> None:

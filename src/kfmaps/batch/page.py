@@ -237,8 +237,7 @@ def _variation(path: str | None, known: dict[str, np.ndarray]) -> str:
 
 
 def _quiet_mesh(path: str) -> Mesh:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)  # the run has noted them
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the run has noted them
         return read_mesh(path)
 
 

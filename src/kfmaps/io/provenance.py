@@ -64,6 +64,5 @@ def map_mesh_file(given: Path | None, found: Match, side: str, beside: Path, rem
     What is odd about it was told when it was matched, and is not told again.
     """
     path = mesh_path(given, found, side, beside, remedy)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
         return read_mesh_file(path)

@@ -106,8 +106,7 @@ def transfer(
     results = {r.pair: r for r in outcome.results}
     own = {one.specimen: given_landmarks(one) for one in templates}
     study = []
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans is in the results
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the results say what is odd
         for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
             maps = {pair.source: result for pair, result in results.items() if pair.target == name}
             one = own.get(name) or carry_templates(templates, name, collection.shapes[name], maps, plan.folder)

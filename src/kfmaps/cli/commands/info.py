@@ -103,8 +103,7 @@ def info(
 
 
 def _facts(path: Path) -> JsonObject:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)  # the table says it all
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the table says it all
         return description(path, read_mesh_file(path))
 
 

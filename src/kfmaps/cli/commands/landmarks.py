@@ -84,8 +84,7 @@ def pick(
     for path in (output, map_output):
         # The page asks before it replaces a file, that of the landmarks it began with too; the shapes it never does.
         check_output(path, True, (source, target) if path is output else (source, target, *begun, output))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about them says kfmaps match, once
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # kfmaps match says it, once
         shapes = read_mesh(source), read_mesh(target)
     known, labels = np.zeros((0, 2), dtype=np.int64), []
     if begun:
@@ -110,8 +109,7 @@ def review(
     Tables and statistics are written anew at each save. The same landmarks transfer as before keeps the corrections,
     and fits the maps of corrected specimens to them.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans said landmarks transfer
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the study has said it
         _serve(ReviewServer(study, port, up), {"output": [study]}, browser, json)
 
 
