@@ -10,13 +10,14 @@ import pytest
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
 from kfmaps.collection.paths import compose_maps, invert_map
-from kfmaps.collection.scored_map import score_pair_maps
+from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_pair_maps
+from kfmaps.collection.sync_init import MAX_LOG_ODDS
 from kfmaps.config import Search
 from kfmaps.matching.finish import KnownMap, match_from_map
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, mirror_image, prepare
 
-GUARDS = ("kfmaps.collection.paths", "kfmaps.collection.scored_map")
+GUARDS = ("kfmaps.collection.paths", "kfmaps.collection.scored_map", "kfmaps.matching.score")
 
 N = 400
 LOCAL = replace(CONFIG, search=Search(), descriptors=replace(CONFIG.descriptors, shot=True), threads=1)
@@ -42,6 +43,12 @@ def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
     assert turned.orientation < 0
     assert (turned.reversed, back.reversed) == (False, True)
     assert back.score == pytest.approx(true.score, abs=0.1)
+
+
+def test_a_map_that_turns_the_surface_inside_out_has_little_for_it() -> None:
+    one = ScoredMap(np.eye(20), 30.0, -0.1, False)
+    kept, turned = candidate_maps([one, replace(one, orientation=-0.3)])
+    assert (kept.log_odds, turned.log_odds) == (MAX_LOG_ODDS, -MAX_LOG_ODDS)
 
 
 def test_a_known_map_is_finished(shapes: list[Shape]) -> None:

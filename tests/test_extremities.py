@@ -143,6 +143,13 @@ def test_equal_shapes_pair_their_tips_with_themselves(probes):
     assert match_of_map(np.zeros_like(everywhere), one, one) is None
 
 
+@pytest.mark.parametrize(("count", "sizes"), [(4, {4}), (5, {4, 5})])
+def test_of_five_extremities_one_may_be_left_out(probes, count, sizes):
+    one, ends = probes[0], probes[0].extremities
+    few = replace(ends, points=ends.points[:count], mean_distance=ends.mean_distance[:count])
+    assert {len(m.source) for m in extremity_similarity(*[replace(one, extremities=few)] * 2)} == sizes
+
+
 def test_distances_between_tips_alone_pair_them(probes):
     one = probes[0]
     plain = replace(
