@@ -16,6 +16,7 @@ from kfmaps.config import Config, DescriptorConfig
 from kfmaps.kernels.kernels import Gaussian, KernelLike, Laplacian, Sum, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric, Network, Scaled, forward
 from kfmaps.learn.pairs import TrainingPair
+from kfmaps.matching.features import spectral_shares
 
 PARTS = {
     "gamma": "the width γ of the kernel",
@@ -57,8 +58,7 @@ def _blocks(config: DescriptorConfig, landmarks: int, count: int) -> _Columns:
     """Return the blocks of ``count`` descriptors: signature, one for each landmark, SHOT."""
     local = min(352, count) if config.shot else 0
     blocks = landmarks if config.landmark_descriptor != "none" and config.energy_sampling == "even" else 0
-    share = 0.0 if config.signature == "none" else config.signature_share
-    each = max(1, int((1 - share) * config.n_spectral) // blocks) if blocks else 0
+    each = spectral_shares(config, blocks)[1] if blocks else 0
     sizes = [("signature", count - local - each * blocks), *[("landmark", each)] * blocks, ("shot", local)]
     ends = np.cumsum([0, *[size for _, size in sizes]])
     groups = [(kind, tuple(range(a, b))) for (kind, _), a, b in zip(sizes, ends[:-1], ends[1:], strict=True) if b > a]

@@ -155,7 +155,7 @@ def _spectral_descriptors(
         return []
     if config.energy_sampling == "every-nth":
         return [_every_nth(side, bases, config, landmarks)]
-    on_signature, per_landmark = _shares(config, marks)
+    on_signature, per_landmark = spectral_shares(config, marks)
     parts = []
     if on_signature:
         parts.append(_family(config.signature, bases[side], bases, None, on_signature))
@@ -164,8 +164,8 @@ def _spectral_descriptors(
     return parts
 
 
-def _shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
-    """How many descriptors go to the signature and to each of ``marks`` landmarks."""
+def spectral_shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
+    """Return how many spectral descriptors the signature has, and each of ``marks`` landmarks."""
     if config.signature == "none":
         return 0, max(1, config.n_spectral // marks)
     if marks == 0:
@@ -182,7 +182,7 @@ def _landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
     if config.energy_sampling == "every-nth":
         signature = 0 if config.signature == "none" else EVERY
         return (_chosen(signature + EVERY * marks, config.n_spectral) - signature) // EVERY
-    on_signature, per_landmark = _shares(config, marks)
+    on_signature, per_landmark = spectral_shares(config, marks)
     return np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
 
 
