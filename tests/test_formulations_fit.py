@@ -12,14 +12,17 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.fmap.losses import RobustData
 from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG, Direct
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, save_map
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
-from kfmaps.matching.fit import fit
+from kfmaps.matching.assemble import assemble
+from kfmaps.matching.fit import fit, fit_points
 from kfmaps.matching.match import match
+from kfmaps.matching.solve import objective
 from kfmaps.shape import prepare
 
 GUARDS = ("kfmaps.fmap.zoomout", "kfmaps.fmap.full_kernel", "kfmaps.matching")
@@ -228,6 +231,20 @@ def test_wrong_landmarks_are_found_out(shape, other, truth, kernel):
 
     assert error(robust, wrong) < 1.3 * error(robust, marks)
     assert error(robust, wrong) < error(config, wrong)
+
+
+def test_residuals_of_features_are_relative_to_both_shapes(shape, other):
+    """So those of the zero maps forth and back add up to 1 for each feature, whatever its size."""
+    config = with_("robust features")
+    points = fit_points(shape, other, config, np.zeros((0, 2), dtype=np.int64))
+    rng = np.random.default_rng(0)
+    task = assemble(*points.shapes, points.bases, points.descriptors, config, rng, (shape, other))
+    relative = []
+    for reverse in (False, True):
+        _, data = objective(task, config, np.eye(12), None, reverse).penalties["descriptors"]
+        assert isinstance(data, RobustData)
+        relative.append(data.residuals(np.zeros((12, 12))))
+    np.testing.assert_allclose(relative[0] + relative[1], 1.0)
 
 
 def test_loss_per_landmark_needs_landmarks(shape, other):
