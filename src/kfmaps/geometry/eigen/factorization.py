@@ -72,11 +72,10 @@ class ShiftedFactorizer:
     def __call__(self, scale: float, diagonal: np.ndarray) -> Solve:
         """Return what :func:`factorize` returns for ``scale · matrix + diag(diagonal)``, ``diagonal (n,)``."""
         if self._ordered is None:
-            first = scale * self.matrix + diags_array(diagonal)
-            factor = _factor(first, ordered=False)
-            order = np.argsort(factor.perm_c)
+            # Nothing but the order is kept of this factor, whose last bits are others: no answer may depend on which of
+            # several threads asks first.
+            order = np.argsort(_factor(scale * self.matrix + diags_array(diagonal), ordered=False).perm_c)
             self._ordered = order, np.argsort(order), *self._with_diagonal(order)
-            return _solver(factor, first.dtype, map)
         order, back, base, places = self._ordered
         data = scale * base.data
         data[places] += diagonal[order]
