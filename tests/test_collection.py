@@ -19,6 +19,7 @@ from kfmaps.collection.pair_graph import (
 from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_map
 from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
+from kfmaps.collection.sync_init import spanning_tree_init
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
 from kfmaps.descriptors.spectral import log_heat_signature
 from kfmaps.fmap.constraints import nearest_orthogonal
@@ -108,6 +109,18 @@ def test_bridges_are_what_the_graph_falls_apart_without(seed: int) -> None:
     alone = {pair for i, pair in enumerate(pairs) if parts(pairs[:i] + pairs[i + 1 :]) > parts(pairs)}
     assert bridges(14, pairs) == alone
     assert bridges(3, [(0, 1), (1, 0), (1, 2)]) == {(1, 2)}
+
+
+def test_a_spanning_tree_takes_the_pairs_with_most_for_them() -> None:
+    """The wrong map between the ends of a chain has least for it, so the latent maps do not know of it."""
+    rng = np.random.default_rng(0)
+    true = [np.linalg.qr(rng.normal(size=(4, 4)))[0] for _ in range(3)]
+    ends = [(0, 2), (0, 1), (1, 2)]
+    maps = [np.stack([true[b] @ true[a].T]) for a, b in ends]
+    maps[0] = -maps[0]
+    latent = spanning_tree_init(3, ends, maps, [np.array([odds]) for odds in (-2.0, 1.0, 3.0)], 4)
+    for (a, b), C in zip(ends[1:], maps[1:], strict=True):
+        np.testing.assert_allclose(C[0] @ latent[a], latent[b], atol=1e-12)
 
 
 def test_signatures_are_those_of_the_shape() -> None:

@@ -85,12 +85,13 @@ def test_fixed_landmarks_and_ends_stay_and_the_energy_falls_to_a_minimum() -> No
     assert (np.diff(order) > 0).all()
 
 
-def test_scale_and_position_change_nothing() -> None:
+@pytest.mark.parametrize("unit", [100, 1e-6])
+def test_scale_and_position_change_nothing(unit: float) -> None:
     template = np.vstack([FIXED, LINE])
     points = template + 0.1 * RNG.normal(size=template.shape)
     slid = slide_semilandmarks(points, template, [OPEN])
-    again = slide_semilandmarks(100 * points + 7, 0.01 * template - 3, [OPEN])
-    np.testing.assert_allclose((again - 7) / 100, slid, atol=1e-5)
+    again = slide_semilandmarks(unit * (points + 7), 0.01 * template - 3, [OPEN])
+    np.testing.assert_allclose(again / unit - 7, slid, atol=1e-5)
 
 
 def test_missing_points_take_no_part() -> None:
