@@ -87,6 +87,8 @@ def test_a_closed_sheet_without_an_inside_keeps_its_side(sphere):
 def test_second_sides_are_left_out_and_single_folds_stay(sphere):
     both = Mesh(sphere.vertices, np.concatenate([sphere.faces, np.roll(sphere.faces[:, ::-1], 1, axis=1)]))
     np.testing.assert_array_equal(doubled_faces(both.faces), np.arange(len(both.faces)) >= len(sphere.faces))
+    # However large the numbers of their vertices.
+    np.testing.assert_array_equal(doubled_faces(both.faces + 2**22), doubled_faces(both.faces))
     part = face_outward(clean_mesh(both))
     np.testing.assert_array_equal(part.mesh.faces, sphere.faces)
     np.testing.assert_array_equal(part.faces_to_original, np.arange(len(sphere.faces)))

