@@ -25,6 +25,7 @@ from shapes import bumpy_sphere
 
 import kfmaps
 from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.topology import topology
 
 #: A damaged mesh, and where each of its vertices was before (n, 3); NaN for vertices that are no part of the shape.
 Damaged = tuple[Mesh, np.ndarray]
@@ -52,10 +53,11 @@ def _decimated(count: int, stretch: float = 1.0) -> Callable[[Mesh, np.random.Ge
 
     def damage(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
         axes = np.array([1.0, stretch, 1.0])
+        counts = topology(mesh)
+        if not counts.is_manifold or counts.inconsistent_edges:
+            return mesh, mesh.vertices  # of these libigl makes nothing, or takes all memory
         given = np.asfortranarray(mesh.vertices * axes), np.asfortranarray(mesh.faces, dtype=np.int32)
         vertices, faces = (np.asarray(found) for found in igl.qslim(*given, 2 * count)[:2])
-        if len(faces) == 0:
-            return mesh, mesh.vertices  # what libigl does not decimate: a surface that is no manifold
         return Mesh(vertices / axes, faces), vertices / axes
 
     return damage

@@ -952,6 +952,17 @@ MUTANTS = tuple(
         ),
         ("x, hold * stiffness, fading)", "x, hold, fading)", "test_landmark_evidence -k far_off"),
         ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
+        # what is done with noise and with faces without area
+        (
+            "replace(part, mesh=Mesh(project_noise(part.mesh.vertices), part.mesh.faces))",
+            "part",
+            "test_cleaning -k noise",
+        ),
+        (
+            "out=np.full_like(dot, 0.1), where=area > 0)",
+            "out=np.zeros_like(dot), where=area > 0)",
+            "test_nonrigid -k held",
+        ),
         # faces turned outward
         ("volume < -_MIN_VOLUME * areas.sum() ** 1.5", "volume < 0", "test_face_orientation -k without_an_inside"),
         ("np.cross(ends, middles[loop])", "np.cross(ends, 0 * middles[loop])", "test_face_orientation -k open_box"),

@@ -223,3 +223,11 @@ def test_an_obtuse_corner_takes_one_half_from_an_edge_at_most():
     vertices = np.array([[-1.0, 0, 0], [1.0, 0, 0], [0, height[-3.0], 0], [0, -height[3.0], 0]])
     energy = build_arap(Mesh(vertices, np.array([[0, 1, 2], [1, 0, 3]])))
     assert energy.laplacian[0, 1] == pytest.approx(-1.0)
+
+
+def test_a_vertex_of_faces_without_area_is_held_by_its_neighbours():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0.3, 1, 0], [0.5, 0, 0]])
+    energy = build_arap(Mesh(vertices, np.array([[0, 1, 2], [1, 0, 3]])))
+    assert energy.laplacian.diagonal()[3] > 0
+    solved = energy.factorize(1.0, np.array([1.0, 1.0, 1.0, 0.0]))(np.ones((4, 1)))
+    assert np.isfinite(solved).all()

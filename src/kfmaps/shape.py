@@ -20,7 +20,7 @@ from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, face_outward
-from kfmaps.geometry.cloud_surface import surface_of_cloud
+from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.mesh import mirror_mesh as mirrored_mesh
@@ -34,6 +34,8 @@ _NO_SURFACE = (
     "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
     "told: give three landmarks, or a mesh made from the points"
 )
+_NOISY = 0.24
+"""Roughness above which a mesh is smoothed: of 5,000 vertices with noise of more than 0.006 √area."""
 _NORMALS = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
 
@@ -137,19 +139,23 @@ def prepare(
 
     ``mesh``: In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, faces
     that look inward are turned, second sides of faces, specks and vertices that no face uses are left out
-    (:mod:`kfmaps.geometry.clean`), with a warning. ``config``: its basis, descriptor and refinement settings count.
+    (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), with a
+    warning. ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
     clock = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     part = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud = len(mesh.faces) == 0
+    noisy = not is_cloud and roughness(part.mesh.vertices, part.mesh.faces) > _NOISY
+    if noisy:
+        part = replace(part, mesh=Mesh(project_noise(part.mesh.vertices), part.mesh.faces))
     small = unit_area(part.mesh)
     wanted = config.n_eigenfunctions
     if len(small.vertices) <= wanted:
         remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
         raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
-    _tell(part, name)
+    _tell(part, name, noisy)
     if is_cloud and config.descriptors.shot:
         surface = surface_of_cloud(small.vertices)
         if surface is None:
@@ -224,14 +230,15 @@ def _placed(mesh: Mesh, part: CleanedMesh, small: Mesh) -> Mesh:
     return Mesh(vertices, mesh.faces)
 
 
-def _tell(part: CleanedMesh, name: str) -> None:
-    """One warning of what is connected, left out or turned."""
+def _tell(part: CleanedMesh, name: str, noisy: bool) -> None:
+    """One warning of what is connected, left out, turned or smoothed."""
     what = "points in one place count as one" if len(part.mesh.faces) == 0 else "vertices on seams are connected"
     told = [f"{part.n_welded} {what}"] * bool(part.n_welded)
     told += [f"{part.specks} specks are left out"] * bool(part.specks)
     told += [f"{part.doubled} second sides of faces are left out"] * bool(part.doubled)
     if part.turned is not None:
         told.append(f"{part.turned.sum()} of {len(part.turned)} faces are turned outward")
+    told += ["noisy vertices are projected to a smooth surface"] * noisy
     if told:
         warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)
 

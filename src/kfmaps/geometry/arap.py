@@ -50,7 +50,7 @@ def build_arap(mesh: Mesh) -> ArapEnergy:
         u, w = v[b] - v[a], v[c] - v[a]
         area = np.linalg.norm(np.cross(u, w), axis=1)
         dot = np.einsum("ij,ij->i", u, w)
-        cot = np.divide(dot, area, out=np.zeros_like(dot), where=area > 0)
+        cot = np.divide(dot, area, out=np.full_like(dot, 0.1), where=area > 0)  # a corner of nothing else stays held
         tails, heads = [*tails, b], [*heads, c]
         values.append(0.5 * np.clip(cot, -1.0, 20.0))  # no sliver may outweigh all else
     ends = np.concatenate(tails), np.concatenate(heads)

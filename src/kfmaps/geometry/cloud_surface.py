@@ -34,11 +34,9 @@ def surface_of_cloud(points: np.ndarray) -> Mesh | None:
         faces = crust_faces(points)
     except QhullError:  # all in a plane
         return None
-    # Median height of a vertex over its neighbours' mean, over the length of edges: with more noise maps were wrong and
-    # called "sure". Clean bodies have 0.05 to 0.12.
-    max_roughness = 0.14
+    max_roughness = 0.14  # with more, maps were wrong and called "sure"
     min_used = 0.95  # share of the points that must be corners of faces
-    if len(np.unique(faces)) < min_used * len(points) or _roughness(points, faces) > max_roughness:
+    if len(np.unique(faces)) < min_used * len(points) or roughness(points, faces) > max_roughness:
         return None
     mesh = Mesh(points, faces)
     ratio = surface_area(mesh) / cloud_areas(points).sum()
@@ -224,8 +222,12 @@ def _poles(
     return first[at[other]], cell[other], angle[other]
 
 
-def _roughness(points: np.ndarray, faces: np.ndarray) -> float:
-    """Return the median height of corners over the mean of their neighbours, over the mean length of edges."""
+def roughness(points: np.ndarray, faces: np.ndarray) -> float:
+    """Return the median height of corners over the mean of their neighbours, over the mean length of edges.
+
+    ``points (n, 3)``, ``faces (f, 3)``. Clean bodies have 0.03 to 0.12, of 500 vertices up to 0.13; on 5,000 vertices
+    noise of 0.003, 0.005 and 0.01 √area makes 0.11 to 0.17, 0.19 to 0.22 and 0.25 to 0.29.
+    """
     mean = _neighbour_mean(points, faces)
     height = ((mean - points) * vertex_normals(Mesh(points, faces))).sum(axis=1)
     edge = np.linalg.norm(points[faces] - points[np.roll(faces, 1, axis=1)], axis=2).mean()
