@@ -128,7 +128,7 @@ def prepare(
 
 
 def transfer(
-    values: ArrayLike, found: MapLike, lost: object = None, *, source: ShapeLike | Shape | None = None
+    values: ArrayLike, found: MapLike, lost: ArrayLike | None = None, *, source: ShapeLike | Shape | None = None
 ) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 

@@ -8,12 +8,12 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import InvalidInput, NotConverged, refuse
 from kfmaps._progress import Progress
-from kfmaps._records import JsonObject
 from kfmaps.config import Config
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.provenance import with_files
@@ -61,16 +61,16 @@ class MatchStatus:
 class Runs:
     """Runs ``work(argument, progress)`` in a thread and keeps the last result."""
 
-    def __init__(self, work: Callable[[np.ndarray, Progress], JsonObject]) -> None:
+    def __init__(self, work: Callable[[Any, Progress], object]) -> None:
         self._work = work
         self._lock = threading.Lock()
         self._cancel = threading.Event()
         self._status = MatchStatus()
         self._began = 0.0
         self._thread: threading.Thread | None = None
-        self._result: JsonObject | None = None
+        self._result: object = None
 
-    def start(self, argument: np.ndarray) -> MatchStatus:
+    def start(self, argument: Any) -> MatchStatus:
         """Begin a run."""
         with self._lock:
             if self._status.state == "running":
@@ -89,7 +89,7 @@ class Runs:
                 return replace(self._status, seconds=time.monotonic() - self._began)
             return self._status
 
-    def result(self) -> JsonObject | None:
+    def result(self) -> object:
         """Return what the last run that was done returned; ``None`` before."""
         with self._lock:
             return self._result
@@ -107,7 +107,7 @@ class Runs:
         with self._lock:
             self._status = replace(self._status, stage=str(stage), fraction=min(max(float(fraction), 0.0), 1.0))
 
-    def _run(self, argument: np.ndarray) -> None:
+    def _run(self, argument: Any) -> None:
         result, state, error = None, "done", ""
         try:
             result = self._work(argument, self._progress)
