@@ -3,13 +3,23 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.partial import scale_search
 from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_placements
 from kfmaps.matching.partial.relaxation_labeling import Assignment, consistency, distance_bounds
 from kfmaps.matching.partial.samples import PartPair, PartSamples
-from kfmaps.matching.partial.scale_search import TRIALS, _consistent_trust, _shot_scale
+from kfmaps.matching.partial.scale_search import (
+    LEAST_SCALE,
+    MOST_SCALE,
+    TRIALS,
+    Placement,
+    _consistent_trust,
+    _shot_scale,
+    refine_placement,
+)
 from kfmaps.matching.score import SCORE
 
 GUARDS = ("kfmaps.matching.partial",)
@@ -107,3 +117,14 @@ def test_landmarks_are_trusted_wherever_they_are():
     assert _consistent_trust(PartPair(part, whole, both_partial=True), SCALE, placed)[:2].tolist() == [1.0, 1.0]
     unmarked = PartPair(replace(part, n_landmarks=0), whole, both_partial=True)
     assert _consistent_trust(unmarked, SCALE, placed)[:2].max() < 0.5
+
+
+@pytest.mark.parametrize(("longer", "end"), [(0.01, LEAST_SCALE), (100.0, MOST_SCALE), (1.0, SCALE)])
+def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, end: float) -> None:
+    _, part, whole = sheet()
+    alike, placed = np.eye(2 * HALF), Assignment(np.arange(2 * HALF), np.ones(2 * HALF), 1.0)
+    monkeypatch.setattr(scale_search, "scale_change", lambda *_: longer)
+    monkeypatch.setattr(scale_search, "shot_similarity", lambda *_: alike)
+    begun = Placement(SCALE, TRIALS[0], placed, alike)
+    assert refine_placement(PartPair(part, whole), begun).scale == end
+    assert refine_placement(PartPair(part, whole, fixed_scale=True), begun).scale == SCALE

@@ -393,7 +393,7 @@ def verdict(
     "ambiguous" is a map that would be called more if no other map were as good.
     """
 
-    margins = margin, numbers.max_margin
+    margins = margin, math.inf if margin < numbers.max_margin else margin
     word, alone = (
         probability_word(probability(score, one, deformation_energy, support, numbers), numbers) for one in margins
     )
