@@ -390,7 +390,7 @@ def verdict(
 ) -> str:
     """Return "sure", "likely" or "unlikely" by the :func:`probability`, or "ambiguous".
 
-    "ambiguous" is a map that would be called more if no other map were as good.
+    "ambiguous" is a map that would be called more if no other map were as good; at the greatest margin none is.
     """
 
     margins = margin, math.inf if margin < numbers.max_margin else margin
