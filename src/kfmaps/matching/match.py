@@ -147,7 +147,7 @@ def _try_others(task: MatchTask, found: SearchResult, best: Match) -> Match:
 def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> DescriptorGuidance | None:
     """What guides the refinement of a map that a search has found."""
     meshes = [shape.mesh for shape in shapes]
-    extremities = found.extremities and found.extremities.guide(*meshes)
+    extremities = found.extremities and found.extremities.guide(meshes[0], meshes[1])
     lead = LANDMARK_WEIGHT if near_isometric(found) else LANDMARK_WEIGHT_UNLIKE
     guidance = build_guidance(*shapes, found.landmarks, extremities, lead=lead)
     if found.registered_vertices is None:
