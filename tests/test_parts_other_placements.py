@@ -12,6 +12,7 @@ from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_place
 from kfmaps.matching.partial.relaxation_labeling import Assignment, consistency, distance_bounds
 from kfmaps.matching.partial.samples import PartPair, PartSamples
 from kfmaps.matching.partial.scale_search import (
+    LEAST_MARKED_SCALE,
     LEAST_SCALE,
     MOST_SCALE,
     TRIALS,
@@ -119,9 +120,12 @@ def test_landmarks_are_trusted_wherever_they_are():
     assert _consistent_trust(unmarked, SCALE, placed)[:2].max() < 0.5
 
 
-@pytest.mark.parametrize(("longer", "end"), [(0.01, LEAST_SCALE), (100.0, MOST_SCALE), (1.0, SCALE)])
-def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, end: float) -> None:
-    _, part, whole = sheet()
+@pytest.mark.parametrize(
+    ("longer", "marks", "end"),
+    [(0.01, 0, LEAST_SCALE), (0.01, 2, LEAST_MARKED_SCALE), (100.0, 0, MOST_SCALE), (1.0, 0, SCALE)],
+)
+def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, marks: int, end: float) -> None:
+    _, part, whole = sheet(marks)
     alike, placed = np.eye(2 * HALF), Assignment(np.arange(2 * HALF), np.ones(2 * HALF), 1.0)
     monkeypatch.setattr(scale_search, "scale_change", lambda *_: longer)
     monkeypatch.setattr(scale_search, "shot_similarity", lambda *_: alike)

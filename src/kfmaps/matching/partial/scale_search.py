@@ -21,8 +21,8 @@ TRIALS = (
 """The first tries all scales, the others the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency tolerate a tenth more or less."""
-LEAST_SCALE, MOST_SCALE = 0.25, 1.6
-"""Bounds of the scale that samples may find: a part that shrinks fits nearly everywhere."""
+LEAST_SCALE, LEAST_MARKED_SCALE, MOST_SCALE = 0.25, 0.1, 1.6
+"""Bounds of the scale that samples may find: a part that shrinks fits nearly everywhere, unless it has landmarks."""
 _SHOT_STEP = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, which placements of like scales share
 LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further ones where what is registered is no part, but overlaps with one."""
@@ -145,12 +145,13 @@ def refine_placement(pair: PartPair, one: Placement) -> Placement:
 
     There are three reassignments before and three after descriptors are computed at the scale that was found.
     """
+    least = LEAST_MARKED_SCALE if pair.part.n_landmarks else LEAST_SCALE
     for repeated in range(2):
         for _ in range(3):
             scale, one = one.scale, place_all(pair, one)
             if not pair.fixed_scale:
                 longer = scale_change(pair.bounds(scale), pair.whole.distances, one.placed)
-                one = replace(one, scale=float(np.clip(scale * longer, LEAST_SCALE, MOST_SCALE)))
+                one = replace(one, scale=float(np.clip(scale * longer, least, MOST_SCALE)))
         if not repeated and not pair.fixed_scale:
             one = replace(one, similarity=shot_similarity(pair, one.scale, one.params))
     return one
