@@ -952,6 +952,9 @@ MUTANTS = tuple(
         ),
         ("x, hold * stiffness, fading)", "x, hold, fading)", "test_landmark_evidence -k far_off"),
         ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
+        # whether a part is a whole with holes
+        ("seen.opening <= SCORE.part.max_hole_opening", "seen.opening > 0", "test_parts -k may_be_a_whole"),
+        ("part.confidence >= (whole.confidence or 0.0)", "part.confidence > 1", "test_parts -k may_be_a_whole"),
         # what is done with noise and with faces without area
         (
             "replace(part, mesh=Mesh(project_noise(part.mesh.vertices), part.mesh.faces))",

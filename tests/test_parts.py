@@ -16,8 +16,9 @@ from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
+from kfmaps.matching import match as matching
 from kfmaps.matching.match import match
-from kfmaps.matching.partial.detect import _boundary_opening, detect_part
+from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
 from kfmaps.matching.partial.place_part import _same_units
 from kfmaps.matching.partial.relaxation_labeling import (
@@ -31,6 +32,7 @@ from kfmaps.matching.partial.relaxation_labeling import (
 )
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
+from kfmaps.matching.result_groups import MatchPart
 from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import prepare
 from test_search import SMALL
@@ -371,3 +373,36 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
         assert found.match[i] == best
         if i >= 2:
             np.testing.assert_allclose(found.trust[i], max(share[best] - 0.3, 0) / 0.7, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("word", "told", "opening", "asked", "expected"),
+    [
+        ("sure", 0.95, 0.05, "auto", "part"),  # a whole is not even tried
+        ("ambiguous", 0.4, 0.05, "auto", "whole"),
+        ("likely", 0.7, 0.05, "auto", "the part after all"),
+        ("ambiguous", 0.4, 0.3, "auto", "part"),  # too much is missing for a whole
+        ("ambiguous", 0.4, 0.05, "target", "part"),  # as asked for
+    ],
+)
+def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(monkeypatch, pair, word, told, opening, asked, expected):
+    tried = []
+
+    def wholes(task, *_):
+        tried.append(task.partial.reason)
+        return SimpleNamespace(confidence=0.6)
+
+    part = SimpleNamespace(verdict=word, confidence=told)
+    monkeypatch.setattr(matching, "_match_part", lambda *_: (part, MatchPart("target", "a part")))
+    monkeypatch.setattr(matching, "_part_result", lambda *_: "part")
+    monkeypatch.setattr(matching, "_match_wholes", wholes)
+    monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", opening))
+    config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
+    result = matching.match(pair.source, pair.target, config)
+    assert (result == "part") == (expected != "whole")
+    assert tried == ([] if expected == "part" else [matching._FIT_AS_WHOLES])
+
+
+def test_the_opening_of_the_part_is_told(pair):
+    assert detect_part(pair.source, pair.target).opening == _boundary_opening(pair.target) > 0
+    assert detect_part(pair.source, pair.source).opening == 0

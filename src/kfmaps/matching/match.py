@@ -16,7 +16,7 @@ from kfmaps.matching.finish import MatchTask, better_match, final_score, refine_
 from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
-from kfmaps.matching.partial.detect import detect_part
+from kfmaps.matching.partial.detect import PartDetection, detect_part
 from kfmaps.matching.partial.match_partial import PartialMatch, describe_part, match_partial
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
@@ -26,6 +26,8 @@ from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import SearchResult, near_isometric, retry, search_map
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
+
+_FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as a part and a whole"
 
 
 def match(
@@ -56,10 +58,27 @@ def match(
         target.given_mesh if isinstance(target, Shape) else target,
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
-    part, why = _match_part(task, marks)
-    if part is not None:
-        return _part_result(task, part, why)
-    task = replace(task, partial=why)
+    seen = _part_suspected(task)
+    part, partial = _match_part(task, seen, marks)
+    may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
+    if part is not None and (part.verdict == "sure" or not may_be_whole):
+        return _part_result(task, part, partial)
+    about = partial if part is None else MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
+    whole = _match_wholes(replace(task, partial=about), marks, descriptors, probes)
+    # A body with holes is found either way, one of other proportions as a whole alone.
+    if part is not None and part.confidence >= (whole.confidence or 0.0):
+        return _part_result(task, part, partial)
+    return whole
+
+
+def _match_wholes(
+    task: MatchTask,
+    marks: np.ndarray | None,
+    descriptors: tuple[Array, Array] | None,
+    probes: tuple[ShapeSamples, ShapeSamples] | None,
+) -> Match:
+    """The match of two whole shapes."""
+    config, progress = task.config, task.clock.report
     if config.search is None:
         return refine_and_register(task, _fit_once(task, marks, descriptors), None)
     asked = config.search.orientation == "reversing"
@@ -78,22 +97,26 @@ def match(
     return _try_others(task, found, best)
 
 
-def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialMatch | None, MatchPart]:
-    """The match of a part and a whole, or ``None`` where both are whole; and what the match says of it."""
+def _part_suspected(task: MatchTask) -> PartDetection:
+    """Which shape is a part: as asked for, which nothing puts in question, or as the boundaries tell."""
     asked, shapes = task.config.partial.part, task.shapes("preserving")
-    if asked == "none":
-        return None, MatchPart()
-    which, why = asked, "as asked for"
-    if which == "auto":
-        seen = detect_part(shapes[0].mesh, shapes[1].mesh)
-        which, why = seen.which, seen.reason
-    if which == "none":
-        return None, MatchPart(reason=why)
+    if asked != "auto":
+        return PartDetection(asked, "" if asked == "none" else "as asked for", np.inf)
+    return detect_part(shapes[0].mesh, shapes[1].mesh)
+
+
+def _match_part(
+    task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None
+) -> tuple[PartialMatch | None, MatchPart]:
+    """The match of a part and a whole, or ``None`` where both are whole; and what the match says of it."""
+    if seen.which == "none":
+        return None, MatchPart(reason=seen.reason)
+    shapes, why = task.shapes("preserving"), seen.reason
     with task.clock("parts"):
         part = match_partial(
-            *shapes, task.config, which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
+            *shapes, task.config, seen.which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
         )
-    if asked != "auto" or (not part.whole and part.verdict != "unlikely"):
+    if task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
         overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
         return part, MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps)
     but = "each covers all of the other" if part.whole else "it fits nowhere"

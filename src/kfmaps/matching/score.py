@@ -92,6 +92,8 @@ class PartScoring:
     """Error of a landmark, in √area of the whole, from which it is rejected."""
     min_opening: float = 0.01
     """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
+    max_hole_opening: float = 0.2
+    """Opening up to which a shape that is not surely placed as a part may be a whole one with holes."""
     opening_ratio: float = 3.0
     """How many times the other's opening that of a part must be."""
 

@@ -15,10 +15,11 @@ from kfmaps.matching.score import SCORE
 
 @dataclass(frozen=True)
 class PartDetection:
-    """``which``: "none", "source" or "target"; ``why``: in words."""
+    """What the boundaries of two shapes tell; made by :func:`detect_part`."""
 
-    which: Literal["none", "source", "target"]
-    reason: str
+    which: Literal["none", "source", "target", "both"]
+    reason: str  # in words
+    opening: float = 0.0  # of the part: the least that is missing, over its own area
 
 
 def _boundary_opening(mesh: Mesh) -> float:
@@ -52,4 +53,4 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
         return PartDetection("none", "no boundary is long enough for a cut")
     if openings[part] < SCORE.part.opening_ratio * openings[whole]:
         return PartDetection("none", "both have open boundaries alike")
-    return PartDetection(part, f"the {part} has long open boundaries, and the {whole} has not")
+    return PartDetection(part, f"the {part} has long open boundaries, and the {whole} has not", openings[part])
