@@ -240,7 +240,7 @@ def _tell(part: CleanedMesh, name: str, noisy: bool) -> None:
         told.append(f"{part.turned.sum()} of {len(part.turned)} faces are turned outward")
     told += ["noisy vertices are projected to a smooth surface"] * noisy
     if told:
-        warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)
+        warnings.warn(f"{name}: for the match {', '.join(told)}; the numbering is kept", KfmapsWarning, stacklevel=3)
 
 
 def check_prepared(shape: Shape, config: Config) -> None:
