@@ -333,6 +333,7 @@ def test_relaxation_weighs_places_by_their_support(rng):
     prior = np.exp((similarity - similarity.max(axis=1, keepdims=True)) / 0.1)
     share = prior**2 / (prior**2).sum(axis=1, keepdims=True)
     near = (bounds.upper <= reach) & ~np.eye(7, dtype=bool)
+    support, most = np.zeros((7, 12)), np.zeros(7)
     for _ in range(12):
         support = np.zeros((7, 12))
         for i, j in zip(*np.nonzero(near), strict=True):
