@@ -12,10 +12,12 @@ import kfmaps
 from conftest import fibonacci_sphere
 from kfmaps import datasets
 from kfmaps._arrays import KfmapsWarning
+from kfmaps.cli.commands.info import description
 from kfmaps.fmap.precise import point_positions
 from kfmaps.geometry.clean import clean_mesh, face_outward
 from kfmaps.geometry.face_orientation import _enclosed_volume, _rim_and_agreement, doubled_faces, inward_faces
 from kfmaps.geometry.mesh import Mesh, face_normals
+from kfmaps.io import MeshFile
 
 GUARDS = ("kfmaps.geometry.face_orientation",)
 CONFIG = replace(kfmaps.Config(), threads=1)
@@ -117,3 +119,9 @@ def test_a_match_is_that_of_the_undamaged_shapes(damage):
     np.testing.assert_allclose(
         point_positions(found.precise(), damaged[0]), point_positions(plain.precise(), pair.source), atol=1e-9
     )
+
+
+def test_info_counts_faces_that_look_inward(sphere):
+    for faces, count in ((sphere.faces, 0), (sphere.faces[:, ::-1], len(sphere.faces))):
+        facts = description("a.ply", MeshFile(Mesh(sphere.vertices, faces)))
+        assert facts["topology"]["inward_faces"] == count

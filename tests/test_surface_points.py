@@ -9,7 +9,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.evaluate import geodesic_errors, precise_errors, smoothness
 from kfmaps.fmap.precise import PointMap, point_positions, vertex_point_map
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
-from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.geometry.mesh import Mesh, mirror_mesh, surface_area
 from kfmaps.geometry.surface_points import surface_point_distances
 
 GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.fmap.precise", "kfmaps.geometry.surface_points")
@@ -91,7 +91,9 @@ def test_smoothness_of_the_identity_and_of_collapsed_and_mirrored_maps() -> None
     point = smoothness(mesh, mesh, np.zeros(n, dtype=np.int64))
     assert point.coverage < 0.1
     assert point.stretched_area == 1.0
-    opposite = Mesh(3 * mesh.vertices, mesh.faces[:, ::-1])
-    mirrored = smoothness(mesh, opposite, np.arange(n))
+    inside_out = Mesh(3 * mesh.vertices, mesh.faces[:, ::-1])
+    assert smoothness(mesh, inside_out, np.arange(n)).flipped_area == 0.0
+    assert smoothness(inside_out, mesh, np.arange(n)).flipped_area == 0.0
+    mirrored = smoothness(mesh, mirror_mesh(inside_out), np.arange(n))
     assert mirrored.flipped_area == pytest.approx(1.0)
     assert mirrored.stretched_area == 0.0  # lengths are compared at equal areas

@@ -11,6 +11,7 @@ from kfmaps.fmap.convert import check_point_map
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.connectivity import half_edges
+from kfmaps.geometry.face_orientation import inward_faces, turn_faces
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
 from kfmaps.geometry.surface_points import surface_point_distances
@@ -130,10 +131,12 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
             check_point_map(np.asarray(places), len(source.vertices), len(target.vertices)), source
         )
     places = check_point_map_precise(places, source, len(target.vertices))
-    images, faces = point_positions(places, source), target.faces
+    # A map of a file that is inside out turns nothing over.
+    outer, faces = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
+    images = point_positions(places, source)
     hit = np.unique(source.faces[places.faces][places.weights > 0])
     areas = vertex_areas(source)
-    normals = vertex_normals(source)
+    normals = vertex_normals(Mesh(source.vertices, outer))
     there = np.einsum("ti,tij->tj", places.weights, normals[source.faces[places.faces]])
     turned = np.cross(images[faces[:, 1]] - images[faces[:, 0]], images[faces[:, 2]] - images[faces[:, 0]])
     over = np.einsum("fi,fi->f", turned, there[faces].sum(axis=1)) < 0

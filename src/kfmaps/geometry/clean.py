@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.connectivity import boundary_edges, component_labels, proper_faces, unique_vertices
-from kfmaps.geometry.face_orientation import doubled_faces, inward_faces
+from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, face_areas
 
 _MAX_SPECK_AREA = 0.005
@@ -123,7 +123,7 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
     turned = inward_faces(part.mesh)
     if not turned.any():
         return part
-    return replace(part, mesh=Mesh(part.mesh.vertices, np.where(turned[:, None], faces[:, ::-1], faces)), turned=turned)
+    return replace(part, mesh=Mesh(part.mesh.vertices, turn_faces(faces, turned)), turned=turned)
 
 
 def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:

@@ -46,7 +46,7 @@ def inward_faces(mesh: Mesh) -> np.ndarray:
         result = following != faces[:, 1]
         outvoted = np.bincount(patch, np.where(result, areas, -areas)) > 0
         result ^= outvoted[patch]
-        faces = np.where(result[:, None], faces[:, ::-1], faces)
+        faces = turn_faces(faces, result)
         rim, _ = _rim_and_agreement(faces, n)
     lengths = np.linalg.norm(mesh.vertices[rim[:, 0]] - mesh.vertices[rim[:, 1]], axis=1)
     loop = component_labels(n, *rim.T)[1][rim[:, 0]]
@@ -55,6 +55,11 @@ def inward_faces(mesh: Mesh) -> np.ndarray:
         return result
     volume = _enclosed_volume(mesh.vertices, faces, rim, loop)
     return ~result if volume < -_MIN_VOLUME * areas.sum() ** 1.5 else result
+
+
+def turn_faces(faces: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Return ``faces (f, 3)``, ``which (f,)`` of them with their corners the other way round."""
+    return np.where(which[:, None], faces[:, ::-1], faces)
 
 
 def _rim_and_agreement(faces: np.ndarray, n: int) -> tuple[np.ndarray, bool]:

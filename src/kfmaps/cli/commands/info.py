@@ -16,6 +16,8 @@ from kfmaps._arrays import InvalidInput, KfmapsWarning, shown
 from kfmaps._records import JsonObject
 from kfmaps.cli.options import Json
 from kfmaps.cli.terminal import Terminal, print_json
+from kfmaps.geometry.clean import clean_mesh
+from kfmaps.geometry.face_orientation import inward_faces
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.geometry.topology import topology
 from kfmaps.io import MeshFile, read_mesh_file
@@ -25,6 +27,7 @@ _DEFECTS = (
     "nonmanifold_edges",
     "nonmanifold_vertices",
     "inconsistent_edges",
+    "inward_faces",
     "degenerate_faces",
     "unreferenced_vertices",
     "duplicated_vertices",
@@ -44,7 +47,14 @@ def description(path: str | Path, content: MeshFile) -> JsonObject:
         "area": surface_area(mesh) if surface else None,
         "colors": content.colors is not None,
         "texture_coordinates": content.uv is not None,
-        "topology": {**asdict(counts), "closed": counts.is_closed, "manifold": counts.is_manifold} if surface else None,
+        "topology": {
+            **asdict(counts),
+            "closed": counts.is_closed,
+            "manifold": counts.is_manifold,
+            "inward_faces": int(inward_faces(clean_mesh(mesh).mesh).sum()),
+        }
+        if surface
+        else None,
     }
 
 
