@@ -15,7 +15,6 @@ import argparse
 import json
 import time
 from dataclasses import replace
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -101,11 +100,13 @@ def main() -> None:
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     rows: list[dict] = []
+    numbers = [100 * int(word) for word in arguments.cuts.split(",")]
     for kind in arguments.sets.split(","):
         drawn = chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1)
-        for (number, pair), cut_number in product(enumerate(drawn), arguments.cuts.split(",")):
-            rows.append(run(Job(arguments.data, kind, *pair), number + 100 * int(cut_number)))
-            print(json.dumps(rows[-1]), flush=True)
+        for number, pair in enumerate(drawn):
+            for first in numbers:
+                rows.append(run(Job(arguments.data, kind, *pair), number + first))
+                print(json.dumps(rows[-1]), flush=True)
     print(
         f"\n{'set':10}{'pairs':>6}{'error':>8}{'median':>8}{'IoU %':>7}{'right':>6}{'sure':>6}{'sure, >10':>11}"
         f"{'CPU s':>8}"
