@@ -82,7 +82,8 @@ def candidates(
         found += refine_coarse(starts, few, functions, threads)
     report(0.7)
     order = by_score(found)
-    best = distinct_maps(order, few.source, SCORE.distinct_distance, 3)
+    composed = 3  # of the best rough maps that differ, those that are composed with symmetries of the shapes
+    best = distinct_maps(order, few.source, SCORE.distinct_distance, composed)
     again = symmetry_inits(best, few, functions, threads)
     if not easy:
         C, values = order[0].functional_map, source.basis.eigenvalues
@@ -90,7 +91,8 @@ def candidates(
         again += [Start(f"kicked {i}", kick, STARTS[0], WEIGHTS[0], False) for i, kick in enumerate(kicks)]
     found += refine_coarse(again, few, functions, threads)
     report(0.75)
-    chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, _FEWER if easy else 10)
+    finalists = _FEWER if easy else 10
+    chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, finalists)
     refined = refine_fine(chosen, few, samples.whole, functions, threads)
     report(1.0)
     return refined
