@@ -47,6 +47,19 @@ def half_edges(faces: np.ndarray) -> np.ndarray:
     return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
 
 
+def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the half-edges of ``faces (f, 3)`` grouped by the edge that they run along.
+
+    Half-edge 3 face + i goes from corner i to corner i + 1. ``n``: number of vertices. Returns ``order (3 f,)``: their
+    numbers; ``start (e,)``: where each edge begins in it; ``sharing (e,)``: how many half-edges it has.
+    """
+    tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    edge = np.minimum(tail, head) * n + np.maximum(tail, head)
+    order = np.argsort(edge, kind="stable")
+    start = np.flatnonzero(np.diff(edge[order], prepend=-1))
+    return order, start, np.diff(start, append=len(order))
+
+
 def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
     """Return the edges that only one face has.
 

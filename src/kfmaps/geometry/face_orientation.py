@@ -5,8 +5,8 @@ from __future__ import annotations
 import igl
 import numpy as np
 
-from kfmaps.geometry.connectivity import component_labels
-from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.connectivity import half_edges_by_edge
+from kfmaps.geometry.mesh import Mesh, boundary_loops, face_areas
 
 _MAX_OPENING = 0.2
 """Area of flat discs in the boundaries, over that of the surface, above which its volume says nothing of its sides."""
@@ -48,10 +48,8 @@ def inward_faces(mesh: Mesh) -> np.ndarray:
         result ^= outvoted[patch]
         faces = turn_faces(faces, result)
         rim, _ = _rim_and_agreement(faces, n)
-    lengths = np.linalg.norm(mesh.vertices[rim[:, 0]] - mesh.vertices[rim[:, 1]], axis=1)
-    loop = component_labels(n, *rim.T)[1][rim[:, 0]]
-    around = np.bincount(loop, lengths)
-    if (around**2).sum() > 4 * np.pi * _MAX_OPENING * areas.sum():
+    loop, discs = boundary_loops(mesh.vertices, rim)
+    if discs > _MAX_OPENING * areas.sum():
         return result
     volume = _enclosed_volume(mesh.vertices, faces, rim, loop)
     return ~result if volume < -_MIN_VOLUME * areas.sum() ** 1.5 else result
@@ -65,10 +63,7 @@ def turn_faces(faces: np.ndarray, which: np.ndarray) -> np.ndarray:
 def _rim_and_agreement(faces: np.ndarray, n: int) -> tuple[np.ndarray, bool]:
     """Boundary edges as their faces run along them, (b, 2), and whether all neighbours are oriented alike."""
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edge = np.minimum(tail, head) * n + np.maximum(tail, head)
-    order = np.argsort(edge)
-    start = np.flatnonzero(np.diff(edge[order], prepend=-1))
-    sharing = np.diff(start, append=len(order))
+    order, start, sharing = half_edges_by_edge(faces, n)
     rim = order[start[sharing == 1]]
     one, two = order[start[sharing == 2]], order[start[sharing == 2] + 1]
     return np.stack([tail[rim], head[rim]], axis=1), bool((tail[one] != tail[two]).all())

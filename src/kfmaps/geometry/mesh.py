@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, refuse, shown
-from kfmaps.geometry.connectivity import boundary_edges
+from kfmaps.geometry.connectivity import boundary_edges, component_labels
 from kfmaps.geometry.point_cloud import cloud_areas
 
 
@@ -109,6 +109,16 @@ def boundary_vertices(mesh: Mesh) -> np.ndarray:
     result = np.zeros(len(mesh.vertices), dtype=bool)
     result[boundary_edges(mesh.faces, len(result))] = True
     return result
+
+
+def boundary_loops(vertices: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return the number of the loop that each boundary edge belongs to, and the area of discs as long around as these.
+
+    ``vertices (n, 3)``; ``edges (b, 2)``. Returns ``loop (b,)``; ``discs``, the area of all of them, which are flat.
+    """
+    lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    loop = component_labels(len(vertices), *edges.T)[1][edges[:, 0]]
+    return loop, float((np.bincount(loop, lengths) ** 2).sum() / (4 * np.pi))
 
 
 MIRROR = np.array([-1.0, 1.0, 1.0])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps.geometry.clean import weld_vertices
-from kfmaps.geometry.connectivity import component_labels, proper_faces, unique_vertices
+from kfmaps.geometry.connectivity import component_labels, half_edges_by_edge, proper_faces, unique_vertices
 from kfmaps.geometry.mesh import Mesh, face_areas
 
 
@@ -61,13 +61,11 @@ def topology(mesh: Mesh) -> Topology:
     faces = corners[~repeated]
     f = len(faces)
 
-    # Half-edge 3 face + i goes from corner i to corner i + 1; it has the same number as its tail's corner.
+    # A half-edge has the same number as its tail's corner.
     tail = faces.ravel()
     following = np.arange(3 * f).reshape(f, 3)[:, [1, 2, 0]].ravel()
     head = tail[following]
-    key = np.minimum(tail, head) * n + np.maximum(tail, head)
-    order = np.argsort(key, kind="stable")
-    _, start, sharing = np.unique(key[order], return_index=True, return_counts=True)
+    order, start, sharing = half_edges_by_edge(faces, n)
     rim = order[start[sharing == 1]]
     one, two = order[start[sharing == 2]], order[start[sharing == 2] + 1]
     against = tail[one] == tail[two]

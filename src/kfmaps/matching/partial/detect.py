@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
 from kfmaps.geometry.clean import clean_mesh
-from kfmaps.geometry.connectivity import boundary_edges, component_labels
-from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.geometry.connectivity import boundary_edges
+from kfmaps.geometry.mesh import Mesh, boundary_loops, surface_area
 from kfmaps.matching.score import SCORE
 
 
@@ -28,16 +26,9 @@ def _boundary_opening(mesh: Mesh) -> float:
     0 of a closed surface and of a point cloud.
     """
     mesh = clean_mesh(mesh).mesh
-    f, n = mesh.faces, len(mesh.vertices)
-    if len(f) == 0:
+    if len(mesh.faces) == 0:
         return 0.0
-    edges = boundary_edges(f, n)
-    if len(edges) == 0:
-        return 0.0
-    lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
-    loop = component_labels(n, *edges.T)[1][edges[:, 0]]
-    around = np.bincount(loop, lengths)
-    return float((around**2).sum() / (4 * np.pi) / surface_area(mesh))
+    return boundary_loops(mesh.vertices, boundary_edges(mesh.faces, len(mesh.vertices)))[1] / surface_area(mesh)
 
 
 def detect_part(source: Mesh, target: Mesh) -> PartDetection:
