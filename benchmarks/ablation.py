@@ -12,20 +12,20 @@ command goes on where it ended. A pair takes 4 to 20 CPU seconds a piece.
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
 import numpy as np
-from automatic import RIGHT, Job
+from automatic import RIGHT, Job, chosen_jobs, pair_options
 from kernel_pieces import Patch, energy_in_zoomout, guided, kernel_guidance, remember
-from scatter import SETS, chosen_pairs, interval, judged
+from scatter import SETS, interval, judged
 
 import kfmaps
 from kfmaps.fmap import descriptor_guidance as guidance
@@ -145,11 +145,7 @@ def report(rows: list[dict[str, Any]], pieces: list[str]) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default=SETS)
-    parser.add_argument("--half", choices=("report", "choice"), default="choice")
-    parser.add_argument("--pairs", type=int, default=3, help="at most, of each set")
+    parser = pair_options(__doc__, SETS, 3)
     parser.add_argument("--seeds", default="0")
     parser.add_argument("--pieces", default=",".join(PIECES), help="names of PIECES")
     parser.add_argument("--rows", type=Path, help="JSON lines of all matches, read first and added to")
@@ -158,17 +154,15 @@ def main() -> None:
     pieces = args.pieces.split(",")
     rows = [json.loads(line) for line in args.rows.read_text().splitlines()] if args.rows and args.rows.exists() else []
     known = {(row["set"], row["pair"], row["seed"], row["piece"]) for row in rows}
-    for seed in (int(word) for word in args.seeds.split(",")):
-        for kind in args.sets.split(","):
-            for pair in chosen_pairs(kind, args.data, args.half, args.pairs):
-                for piece in ("", *pieces):
-                    if (kind, "-".join(pair), seed, piece) in known:
-                        continue
-                    rows.append(row_of(Job(args.data, kind, *pair), seed, piece, args.cache))
-                    print(*(f"{v:.2f}" if isinstance(v, float) else v for v in rows[-1].values()), flush=True)
-                    if args.rows:
-                        with args.rows.open("a", encoding="utf-8") as file:
-                            file.write(json.dumps(rows[-1]) + "\n")
+    for seed, job in product([int(word) for word in args.seeds.split(",")], chosen_jobs(args)):
+        for piece in ("", *pieces):
+            if (job.kind, f"{job.source}-{job.target}", seed, piece) in known:
+                continue
+            rows.append(row_of(job, seed, piece, args.cache))
+            print(*(f"{v:.2f}" if isinstance(v, float) else v for v in rows[-1].values()), flush=True)
+            if args.rows:
+                with args.rows.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(rows[-1]) + "\n")
     report(rows, pieces)
 
 

@@ -54,6 +54,9 @@ class Job:
     wrong: float = 0.0
     threads: int = 1
 
+    def __str__(self) -> str:
+        return f"{self.kind} {self.source} {self.target}"
+
 
 def read(path: Path) -> kfmaps.Mesh:
     with warnings.catch_warnings():
@@ -122,6 +125,31 @@ def pairs_of(kind: str, data: Path | None, count: int) -> list[tuple[str, str]]:
     found = [pair for pair in all_pairs(kind, data) if not left_out.issuperset(pair)]
     drawn = np.random.default_rng(0).permutation(len(found))[:count]
     return [found[i] for i in np.sort(drawn)]
+
+
+def chosen_pairs(kind: str, data: Path, half: str, count: int, seed: int = 0) -> list[tuple[str, str]]:
+    """At most ``count`` pairs of a half, those of the choice half drawn with a ``seed``."""
+    if half == "report":
+        return pairs_of(kind, data, count)
+    found = [pair for pair in all_pairs(kind, data) if CHOSEN_ON[kind].issuperset(pair)]
+    drawn = np.random.default_rng(seed).permutation(len(found))[:count]
+    return [found[i] for i in np.sort(drawn)]
+
+
+def pair_options(about: str | None, sets: str, pairs: int, half: str = "choice") -> argparse.ArgumentParser:
+    """The options of benchmarks over pairs: the data, the sets, the half and the most pairs of each set."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--sets", default=sets)
+    parser.add_argument("--half", choices=("choice", "report"), default=half)
+    parser.add_argument("--pairs", type=int, default=pairs, help="at most, of each set")
+    return parser
+
+
+def chosen_jobs(options: argparse.Namespace, seed: int = 0) -> list[Job]:
+    """The pairs that :func:`pair_options` ask for, set by set; ``seed`` as of :func:`chosen_pairs`."""
+    data, half, count = options.data, options.half, options.pairs
+    return [Job(data, s, *pair) for s in options.sets.split(",") for pair in chosen_pairs(s, data, half, count, seed)]
 
 
 def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], count: int, wrong: float) -> np.ndarray:

@@ -10,14 +10,11 @@ map that is perfect but knows points by their noisy positions alone. DIR is as f
 
 from __future__ import annotations
 
-import argparse
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-from automatic import Job, loaded
-from scatter import chosen_pairs
+from automatic import chosen_jobs, loaded, pair_options
 from scipy.spatial import KDTree
 
 import kfmaps
@@ -43,41 +40,36 @@ def least_error(mesh: Mesh, first: np.ndarray, second: np.ndarray, nearest: np.n
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="FAUST_r,SHREC19_r,TOSCA_r,SMAL_r")
-    parser.add_argument("--half", choices=("choice", "report"), default="report")
-    parser.add_argument("--pairs", type=int, default=2, help="of each set")
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,SMAL_r", 2, "report")
     parser.add_argument("--noise", default="0,0.003,0.01", help="standard deviations, in √area")
     parser.add_argument("--points", type=int, default=0, help="of a cloud, at least those of the mesh")
     parser.add_argument("--no-meshes", action="store_true", help="only clouds")
     arguments = parser.parse_args()
     config = replace(kfmaps.Config(), threads=1)
     print(f"{'pair':34}{'noise':>7}{'least':>7}{'error':>7}  {'verdict':11}{'told':>6}{'faces':>7}{'CPU s':>7}")
-    for kind in arguments.sets.split(","):
-        for pair in chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1):
-            source, target, true_s, true_t = loaded(Job(arguments.data, kind, *pair))
-            source, target = unit_area(source), unit_area(target)
-            levels = [float(noise) for noise in arguments.noise.split(",")]
-            for noise in levels if arguments.no_meshes else [None, *levels]:
-                rng = np.random.default_rng(0)
-                clouds = [cloud(mesh, arguments.points, noise or 0.0, rng) for mesh in (source, target)]
-                given = (source, target) if noise is None else [Mesh(points) for points, _ in clouds]
-                begun = time.process_time()
-                shapes = [kfmaps.prepare(mesh, config) for mesh in given]
-                found = kfmaps.match(shapes[0], shapes[1], config)
-                seconds = time.process_time() - begun
-                images = found.target_to_source[true_t]
-                least = least_error(source, clouds[0][0], cloud(source, 0, noise or 0.0, rng)[0], clouds[0][1])
-                images = images if noise is None else clouds[0][1][images]
-                error = 100 * float(kfmaps.geodesic_errors(source, images, true_s).mean())
-                faces = sum(len(one.mesh.faces) > 0 for one in shapes)
-                name, told = f"{kind} {pair[0]} {pair[1]}", found.confidence or 0.0
-                print(
-                    f"{name:34}{'mesh' if noise is None else noise:>7}{least:7.2f}{error:7.2f}  {found.verdict:11}"
-                    f"{told:6.2f}{faces:7}{seconds:7.1f}",
-                    flush=True,
-                )
+    for job in chosen_jobs(arguments, seed=1):
+        source, target, true_s, true_t = loaded(job)
+        source, target = unit_area(source), unit_area(target)
+        levels = [float(noise) for noise in arguments.noise.split(",")]
+        for noise in levels if arguments.no_meshes else [None, *levels]:
+            rng = np.random.default_rng(0)
+            clouds = [cloud(mesh, arguments.points, noise or 0.0, rng) for mesh in (source, target)]
+            given = (source, target) if noise is None else [Mesh(points) for points, _ in clouds]
+            begun = time.process_time()
+            shapes = [kfmaps.prepare(mesh, config) for mesh in given]
+            found = kfmaps.match(shapes[0], shapes[1], config)
+            seconds = time.process_time() - begun
+            images = found.target_to_source[true_t]
+            least = least_error(source, clouds[0][0], cloud(source, 0, noise or 0.0, rng)[0], clouds[0][1])
+            images = images if noise is None else clouds[0][1][images]
+            error = 100 * float(kfmaps.geodesic_errors(source, images, true_s).mean())
+            faces = sum(len(one.mesh.faces) > 0 for one in shapes)
+            told = found.confidence or 0.0
+            print(
+                f"{job!s:34}{'mesh' if noise is None else noise:>7}{least:7.2f}{error:7.2f}  {found.verdict:11}"
+                f"{told:6.2f}{faces:7}{seconds:7.1f}",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

@@ -9,17 +9,14 @@ benchmarks/automatic.py.
 
 from __future__ import annotations
 
-import argparse
 import time
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import igl
 import numpy as np
-from automatic import Job, loaded
-from scatter import chosen_pairs
+from automatic import chosen_jobs, loaded, pair_options
 from scipy.spatial import KDTree
 from shapes import bumpy_sphere
 
@@ -168,38 +165,33 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="FAUST_r,SHREC19_r,TOSCA_r,SMAL_r")
-    parser.add_argument("--half", choices=("choice", "report"), default="report")
-    parser.add_argument("--pairs", type=int, default=1, help="of each set")
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,SMAL_r", 1, "report")
     parser.add_argument("--damage", default=",".join(DAMAGES))
     arguments = parser.parse_args()
     config = replace(kfmaps.Config(), threads=1)
     print(f"{'pair':34}{'damage':16}{'vertices':>9}{'error':>7}  {'verdict':11}{'told':>6}{'CPU s':>7}  warnings")
-    for kind in arguments.sets.split(","):
-        for pair in chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1):
-            source, target, true_s, true_t = loaded(Job(arguments.data, kind, *pair))
-            source, target = unit_area(source), unit_area(target)
-            for name in arguments.damage.split(","):
-                damaged, before = DAMAGES[name](target, np.random.default_rng(0))
-                of_shape = np.flatnonzero(np.isfinite(before[:, 0]))
-                places = of_shape[np.asarray(KDTree(before[of_shape]).query(target.vertices[true_t])[1])]
-                begun = time.process_time()
-                with warnings.catch_warnings(record=True) as told:
-                    warnings.simplefilter("always")
-                    found = kfmaps.match(source, damaged, config)
-                seconds = time.process_time() - begun
-                images = found.target_to_source[places]
-                kept = images >= 0
-                error = 100 * float(kfmaps.geodesic_errors(source, images[kept], true_s[kept]).mean())
-                missing = "" if kept.all() else f"{100 * np.mean(~kept):.0f} % without a counterpart; "
-                print(
-                    f"{f'{kind} {pair[0]} {pair[1]}':34}{name:16}{len(damaged.vertices):9,}{error:7.2f}  "
-                    f"{found.verdict:11}{found.confidence or 0.0:6.2f}{seconds:7.1f}  {missing}"
-                    + "; ".join(str(one.message)[:60] for one in told),
-                    flush=True,
-                )
+    for job in chosen_jobs(arguments, seed=1):
+        source, target, true_s, true_t = loaded(job)
+        source, target = unit_area(source), unit_area(target)
+        for name in arguments.damage.split(","):
+            damaged, before = DAMAGES[name](target, np.random.default_rng(0))
+            of_shape = np.flatnonzero(np.isfinite(before[:, 0]))
+            places = of_shape[np.asarray(KDTree(before[of_shape]).query(target.vertices[true_t])[1])]
+            begun = time.process_time()
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                found = kfmaps.match(source, damaged, config)
+            seconds = time.process_time() - begun
+            images = found.target_to_source[places]
+            kept = images >= 0
+            error = 100 * float(kfmaps.geodesic_errors(source, images[kept], true_s[kept]).mean())
+            missing = "" if kept.all() else f"{100 * np.mean(~kept):.0f} % without a counterpart; "
+            print(
+                f"{job!s:34}{name:16}{len(damaged.vertices):9,}{error:7.2f}  "
+                f"{found.verdict:11}{found.confidence or 0.0:6.2f}{seconds:7.1f}  {missing}"
+                + "; ".join(str(one.message)[:60] for one in told),
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

@@ -8,12 +8,10 @@ half, and the share of the area that has.
 
 from __future__ import annotations
 
-import argparse
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-from automatic import Job, loaded, pairs_of
+from automatic import chosen_jobs, loaded, pair_options
 
 import kfmaps
 from kfmaps.matching import search
@@ -23,10 +21,7 @@ from kfmaps.matching.score import SCORE
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="SMAL_r,SHREC07,catdog,TOSCA_nonIsometric_r,SHREC19_r,FAUST_r")
-    parser.add_argument("--pairs", type=int, default=4)
+    parser = pair_options(__doc__, "SMAL_r,SHREC07,catdog,TOSCA_nonIsometric_r,SHREC19_r,FAUST_r", 4, "report")
     arguments = parser.parse_args()
     margins: list[float] = []
 
@@ -38,20 +33,19 @@ def main() -> None:
     search.compare_exchanged = compare
     config = replace(kfmaps.Config(), threads=1)
     print(f"{'pair':48} {'verdict':10} error  margin  off  found  low")
-    for kind in arguments.sets.split(","):
-        for names in pairs_of(kind, arguments.data, arguments.pairs):
-            source, target, true_s, true_t = loaded(Job(arguments.data, kind, *names))
-            found = kfmaps.match(source, target, config)
-            errors = kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
-            off = errors > SCORE.moved_distance
-            low = found.local_confidence[true_t] < SCORE.torn_confidence
-            told = low[off].mean() if off.any() else np.nan
-            area = low_confidence_area(target, found.local_confidence)
-            print(
-                f"{kind + ' ' + ' '.join(names):48} {found.verdict:10} {100 * errors.mean():5.2f} {margins[-1]:7.2f}"
-                f" {off.mean():5.3f} {told:5.2f} {area:5.3f}",
-                flush=True,
-            )
+    for job in chosen_jobs(arguments):
+        source, target, true_s, true_t = loaded(job)
+        found = kfmaps.match(source, target, config)
+        errors = kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
+        off = errors > SCORE.moved_distance
+        low = found.local_confidence[true_t] < SCORE.torn_confidence
+        told = low[off].mean() if off.any() else np.nan
+        area = low_confidence_area(target, found.local_confidence)
+        print(
+            f"{job!s:48} {found.verdict:10} {100 * errors.mean():5.2f} {margins[-1]:7.2f}"
+            f" {off.mean():5.3f} {told:5.2f} {area:5.3f}",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

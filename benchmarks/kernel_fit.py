@@ -9,7 +9,6 @@ With 10 and with 100 descriptors, of the raw map and of the refined one. The tab
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from dataclasses import replace
@@ -18,8 +17,8 @@ from typing import Any
 
 import numpy as np
 from ablation import report
-from automatic import Job, chosen_landmarks, loaded
-from scatter import POINTS, Judged, chosen_pairs
+from automatic import Job, chosen_jobs, chosen_landmarks, loaded, pair_options
+from scatter import POINTS, Judged
 
 import kfmaps
 from kfmaps.geometry.geodesics import geodesic_distances
@@ -53,19 +52,14 @@ def rows_of(job: Job) -> list[dict[str, Any]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="FAUST_r,SHREC19_r,TOSCA_r")
-    parser.add_argument("--half", choices=("report", "choice"), default="choice")
-    parser.add_argument("--pairs", type=int, default=3, help="at most, of each set")
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r", 3)
     parser.add_argument("--rows", type=Path, help="JSON lines of all maps, written")
     args = parser.parse_args()
     rows = []
-    for kind in args.sets.split(","):
-        for pair in chosen_pairs(kind, args.data, args.half, args.pairs):
-            rows += rows_of(Job(args.data, kind, *pair))
-            if args.rows:
-                args.rows.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+    for job in chosen_jobs(args):
+        rows += rows_of(job)
+        if args.rows:
+            args.rows.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
     report(rows, [f"Gaussian, {count} descriptors, {stage}" for count in COUNTS for stage in ("raw", "refined")])
 
 

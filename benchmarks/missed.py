@@ -8,14 +8,12 @@ benchmarks/automatic.py, and so are the pairs: none of two shapes that settings 
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-from automatic import RIGHT, Job, loaded, pairs_of
+from automatic import RIGHT, Job, chosen_pairs, loaded, pair_options
 
 import kfmaps
 from kfmaps.fmap.convert import nearest
@@ -63,14 +61,11 @@ def searched(job: Job) -> list[tuple[str, float]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="FAUST_r,SHREC19_r")
-    parser.add_argument("--pairs", type=int, default=8)
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r", 8, "report")
     args = parser.parse_args()
     for kind in args.sets.split(","):
         rows = []
-        for a, b in pairs_of(kind, args.data, args.pairs):
+        for a, b in chosen_pairs(kind, args.data, args.half, args.pairs):
             rows.append(searched(Job(args.data, kind, a, b)))
             print(f"{kind} {a} {b}: " + "; ".join(f"{verdict} {error:.1f}" for verdict, error in rows[-1]), flush=True)
         for i, name in enumerate(("without near-symmetries", "with them")):

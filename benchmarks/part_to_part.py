@@ -11,15 +11,13 @@ right with an error below 8 and an overlap above a half. DIR as for benchmarks/a
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from automatic import RIGHT, Job, loaded
-from scatter import chosen_pairs
+from automatic import RIGHT, Job, chosen_pairs, loaded, pair_options
 
 import kfmaps
 from kfmaps.datasets.pairs import largest_piece
@@ -91,11 +89,7 @@ def is_right(row: dict) -> bool:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="TOSCA_r,SMAL_r,FAUST_r")
-    parser.add_argument("--half", choices=("choice", "report"), default="report")
-    parser.add_argument("--pairs", type=int, default=12, help="of each set")
+    parser = pair_options(__doc__, "TOSCA_r,SMAL_r,FAUST_r", 12, "report")
     parser.add_argument("--cuts", default="0", help="numbers of the cuts of each pair")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()

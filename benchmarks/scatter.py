@@ -14,7 +14,6 @@ benchmarks/automatic.py. Three seeds of a pair take 15 to 60 CPU seconds.
 
 from __future__ import annotations
 
-import argparse
 import pickle
 import time
 from dataclasses import dataclass, replace
@@ -22,7 +21,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-from automatic import CHOSEN_ON, Job, all_pairs, loaded, pairs_of
+from automatic import Job, chosen_pairs, loaded, pair_options
 
 import kfmaps
 from kfmaps.fmap.convert import nearest
@@ -150,21 +149,8 @@ def interval(change: np.ndarray) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def chosen_pairs(kind: str, data: Path, half: str, count: int, seed: int = 0) -> list[tuple[str, str]]:
-    """At most ``count`` pairs of a half, those of the choice half drawn with a ``seed``."""
-    if half == "report":
-        return pairs_of(kind, data, count)
-    found = [pair for pair in all_pairs(kind, data) if CHOSEN_ON[kind].issuperset(pair)]
-    drawn = np.random.default_rng(seed).permutation(len(found))[:count]
-    return [found[i] for i in np.sort(drawn)]
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default=SETS)
-    parser.add_argument("--half", choices=("report", "choice"), default="choice")
-    parser.add_argument("--pairs", type=int, default=3)
+    parser = pair_options(__doc__, SETS, 3)
     parser.add_argument("--names", default="", help="these pairs of the one set instead: a-b,c-d")
     parser.add_argument("--seeds", default="0,1")
     parser.add_argument("--again", action="store_true", help="finish one candidate with all seeds too")

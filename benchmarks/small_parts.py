@@ -10,7 +10,6 @@ below 8 to the mirror image of the truth where that is not right. DIR is as for 
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from collections.abc import Iterator
@@ -18,8 +17,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from automatic import RIGHT, Job, lines, loaded
-from scatter import chosen_pairs
+from automatic import RIGHT, Job, chosen_pairs, lines, loaded, pair_options
 
 import kfmaps
 from kfmaps.datasets.pairs import largest_piece
@@ -85,11 +83,7 @@ def run(job: Job, seed: int) -> Iterator[dict[str, object]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="FAUST_r,TOSCA_r")
-    parser.add_argument("--half", choices=("choice", "report"), default="report")
-    parser.add_argument("--pairs", type=int, default=4, help="of each set")
+    parser = pair_options(__doc__, "FAUST_r,TOSCA_r", 4, "report")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     rows: list[dict] = []

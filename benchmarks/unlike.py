@@ -15,16 +15,13 @@ pairs of two such shapes. Three pairs of either set take about ten minutes.
 
 from __future__ import annotations
 
-import argparse
 import time
 from contextlib import ExitStack
 from dataclasses import replace
-from itertools import permutations
-from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-from automatic import CHOSEN_ON, Job, loaded, pairs_of
+from automatic import Job, chosen_pairs, loaded, pair_options
 
 import kfmaps
 from kfmaps.geometry.closest_points import closest_points
@@ -53,15 +50,6 @@ KINDS = {
 }
 
 
-def chosen_pairs(kind: str, count: int) -> list[tuple[str, str]]:
-    """At most ``count`` pairs of two shapes that settings were chosen on, one of each sort, drawn with a fixed seed."""
-    names = sorted(CHOSEN_ON[kind])
-    sort = {name: name.rstrip("0123456789") for name in names}
-    found = [(a, b) for a, b in permutations(names, 2) if sort[a] != sort[b]]
-    drawn = np.random.default_rng(0).permutation(len(found))[:count]
-    return [found[i] for i in np.sort(drawn)]
-
-
 def matched(job: Job, seeds: list[int]) -> list[list[tuple[float, float]]]:
     """Mean error × 100 and CPU seconds of each of :data:`KINDS` for each seed."""
     source, target, true_s, true_t = loaded(job)
@@ -84,16 +72,12 @@ def matched(job: Job, seeds: list[int]) -> list[list[tuple[float, float]]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="catdog,TOSCA_nonIsometric_r")
-    parser.add_argument("--half", choices=("report", "choice"), default="report")
-    parser.add_argument("--pairs", type=int, default=3)
+    parser = pair_options(__doc__, "catdog,TOSCA_nonIsometric_r", 3, "report")
     parser.add_argument("--seeds", default="0")
     args = parser.parse_args()
     seeds = [int(seed) for seed in args.seeds.split(",")]
     for kind in args.sets.split(","):
-        pairs = chosen_pairs(kind, args.pairs) if args.half == "choice" else pairs_of(kind, args.data, args.pairs)
+        pairs = chosen_pairs(kind, args.data, args.half, args.pairs)
         every = []
         for a, b in pairs:
             every.append(matched(Job(args.data, kind, a, b), seeds))

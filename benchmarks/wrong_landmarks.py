@@ -8,15 +8,13 @@ wrong in one of the ways of :data:`WAYS`. "local" is the mean error within 0.1 â
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from automatic import Job, chosen_landmarks, loaded
-from scatter import chosen_pairs
+from automatic import Job, chosen_jobs, chosen_landmarks, loaded, pair_options
 from scipy.spatial import KDTree
 
 import kfmaps
@@ -123,17 +121,12 @@ def report(rows: list[dict]) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--sets", default="FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r")
-    parser.add_argument("--half", choices=("choice", "report"), default="choice")
-    parser.add_argument("--pairs", type=int, default=2, help="of each set")
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r", 2)
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     rows: list[dict] = []
-    for kind in arguments.sets.split(","):
-        for pair in chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1):
-            rows += rows_of(Job(arguments.data, kind, *pair))
+    for job in chosen_jobs(arguments, seed=1):
+        rows += rows_of(job)
     report(rows)
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
