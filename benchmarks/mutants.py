@@ -68,12 +68,12 @@ def guards() -> dict[str, tuple[str, ...]]:
 
 
 def guarding(path: Path) -> str:
-    """Return the test files that guard a module, those first that name the fewest beside it."""
+    """Return the test files that guard a module, those first that name it most closely and the fewest beside it."""
     module = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
     of = {
-        test: (module not in names, len(names), test)
+        test: (-max(map(len, found)), len(names), test)
         for test, names in guards().items()
-        if any(f"{module}.".startswith(f"{name}.") for name in names)
+        if (found := [name for name in names if f"{module}.".startswith(f"{name}.")])
     }
     return " ".join(sorted(of, key=lambda test: of[test]))
 

@@ -35,6 +35,17 @@ def test_loose_pairs_are_nearly_the_exact_ones() -> None:
     assert loose.residuals.max() < 0.05
 
 
+@pytest.mark.parametrize("tolerance", [1e-10, 1e-2])
+@pytest.mark.parametrize("k", [100, 200])
+def test_what_is_told_of_the_progress_ends_near_one(k: int, tolerance: float) -> None:
+    """The solves that are counted are about as many as were expected, and no fewer are expected than there are."""
+    told: list[float] = []
+    operator = operators(unit_area(blob(1500)))
+    smallest_eigenpairs(*operator, k, tolerance=tolerance, method="block", progress=told.append)
+    assert 0.7 < told[-1] < 0.99
+    assert len(set(told)) == len(told)
+
+
 def test_loose_search_misses_no_copies() -> None:
     stiffness, mass = operators(unit_area(blob(80)))
     one = eigh(stiffness.toarray(), np.diag(mass), eigvals_only=True)

@@ -233,6 +233,16 @@ def test_objective_falls_whatever_is_combined(case, constraint):
     assert sum(objective.breakdown(C).values()) == pytest.approx(objective.value(C), rel=1e-10)
 
 
+def test_no_step_follows_one_that_gains_little(numbers):
+    *_, E = numbers
+    objective = Objective(E, {"sparsity": (0.3, sparse_penalty(E.rhs(), 0.1))})
+    how = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=50, rtol=0.0)
+    two, all_of_them = (minimize(objective, replace(how, max_outer_iter=most)) for most in (2, 50))
+    greedy, usual = (minimize(objective, replace(how, rtol=rtol)) for rtol in (1.0, 1e-4))
+    assert greedy.steps == two.steps <= usual.steps < all_of_them.steps
+    assert objective.value(usual.value) == pytest.approx(objective.value(all_of_them.value), rel=1e-2)
+
+
 def test_stationary_without_constraint(numbers):
     *_, E = numbers
     objective = Objective(E, {"sparsity": (0.3, sparse_penalty(E.rhs(), 0.1)), "data": (1.0, robust(numbers, "huber"))})

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -110,6 +112,25 @@ def test_what_is_larger_is_denser_there() -> None:
     assert ratio[1, 7] / ratio[0, 7] == pytest.approx(1.3**2, rel=1e-3)
     np.testing.assert_allclose(ratio[1, :7] / ratio[0, :7], 1.0, atol=1e-3)
     assert density(D, latent, 0, basis).std(axis=0).argmax() == 7
+
+
+def test_a_latent_function_that_a_shape_hardly_has_does_not_count_there() -> None:
+    """At a twenty-fifth of the others the density is that without it; at a fifteenth it counts as in the inverse."""
+    _, links, found, values = collection([np.eye(K), np.diag([1, 1, 1, 1, 1, 1, 1, 1.3])])
+    latent = limit_shape(found.latent, first_maps(links), values)
+    left, sizes, right = np.linalg.svd(latent.maps[0], full_matrices=False)
+    basis = Basis(VALUES, np.random.default_rng(0).normal(size=(40, K)), np.ones(40))
+    D = operators(latent, values)
+
+    def of(last: float) -> np.ndarray:
+        maps = ((left * [*sizes[:-1], last * sizes[0]]) @ right, *latent.maps[1:])
+        return density(D, replace(latent, maps=maps), 0, basis)
+
+    np.testing.assert_allclose(of(1 / 25), of(0.0), rtol=1e-9)
+    inverse = right.T @ np.diag(1 / np.append(sizes[:-1], sizes[0] / 15)) @ left.T
+    at = (basis.functions @ inverse.T)[:, latent.maps[0].shape[1] - D.shape[1] :]
+    each, whole = (np.einsum("xi,...ij,xj->...x", at, M, at) for M in (D, D.mean(axis=0)))
+    np.testing.assert_allclose(of(1 / 15), each / whole, rtol=1e-6)
 
 
 def test_what_hangs_together_not_has_no_common_basis() -> None:

@@ -318,11 +318,11 @@ def _landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> 
     """The pair's landmarks (l, 2), 0-based, or ``None``."""
     if lines := task.spec.landmark_lines:
         if truth is None:
-            raise refuse("--truth-landmarks", "true correspondences", "none for this pair", "leave it out")
+            raise refuse("--landmarks", "true correspondences", "none for this pair", "leave it out")
         highest = max(lines)
         if highest > len(truth.source):
             got = f"line {highest} of {len(truth.source)}"
-            raise refuse("--truth-landmarks", "lines of the truth", got, "choose others")
+            raise refuse("--landmarks", "lines of the truth", got, "choose others")
         rows = np.array(lines) - 1
         return np.stack([truth.source[rows], truth.target[rows]], axis=1)
     if task.landmarks is None:
