@@ -19,12 +19,12 @@ Array = Any
 
 
 def namespace(*arrays: Array) -> Any:
-    """The array-API namespace that all ``arrays`` share."""
+    """Return the array-API namespace that all ``arrays`` share."""
     return array_namespace(*arrays)
 
 
 def is_numpy(*arrays: Array) -> bool:
-    """Whether ``arrays`` are NumPy's."""
+    """Return whether ``arrays`` are NumPy's."""
     return is_numpy_namespace(array_namespace(*arrays))
 
 
@@ -40,7 +40,7 @@ def like(values: Array, reference: Array) -> Array:
 
 
 def to_numpy(array: Array) -> np.ndarray:
-    """A NumPy copy or view of ``array``, wherever it lives."""
+    """Return a NumPy copy or view of ``array``, wherever it lives."""
     if isinstance(array, np.ndarray):
         return array
     if _is_torch(array):
@@ -58,7 +58,7 @@ def take(array: Array, indices: np.ndarray, axis: int = 0) -> Array:
 
 
 def seed_of(rng: int | np.random.Generator | None) -> int:
-    """The seed that ``rng`` is, or one that is drawn from it; ``None`` draws one at random."""
+    """Return the seed that ``rng`` is, or one that is drawn from it; ``None`` draws one at random."""
     if rng is None or isinstance(rng, np.random.Generator):
         return int(np.random.default_rng(rng).integers(2**31))
     return int(rng)
@@ -75,7 +75,7 @@ def inner(x: Array, y: Array) -> float:
 
 
 def number(x: Array) -> float:
-    """A Python number of an array with one value, without what PyTorch knows of its derivatives."""
+    """Return a Python number of an array with one value, without what PyTorch knows of its derivatives."""
     return float(x.detach() if _is_torch(x) else x)
 
 

@@ -31,7 +31,7 @@ def check_memory(need: float, name: str, what: str, remedy: str) -> None:
 
 
 def format_bytes(size: float) -> str:
-    """A number of bytes: 12 MB, 3.5 GB, 1,000 GB."""
+    """Return a number of bytes in words: 12 MB, 3.5 GB, 1,000 GB."""
     for unit, scale in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if size >= scale:
             return f"{size / scale:.3g} {unit}" if size < 1000 * scale else f"{size / scale:,.0f} {unit}"

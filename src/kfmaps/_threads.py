@@ -40,7 +40,7 @@ _depth = _Depth()
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
-    """A context in which BLAS and OpenMP run on one thread; inside another one of the same thread it costs nothing.
+    """Return a context in which BLAS and OpenMP run on one thread; within another one it costs nothing.
 
     To look through all loaded libraries takes some milliseconds, more than a small search: so it is done again only
     after something has been imported.
@@ -66,7 +66,7 @@ def _libraries(modules: int) -> ThreadpoolController:
 def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:
     """``[function(item) for item in items]`` over Python threads, with BLAS held to one thread.
 
-    ``threads``: How many at once; ``None`` takes every available core. With 1 it is a plain loop.
+    ``threads``: how many at once; ``None`` takes every available core. With 1 it is a plain loop.
     """
     items = list(items)
     count = min(threads or available_cores(), max(len(items), 1))

@@ -269,7 +269,7 @@ def render(
     force: bool = False,
     **options: Any,
 ) -> Figure:
-    """The picture of a map: the source, the target in the source's colours, and the error where the truth is given.
+    """Return the picture of a map: the source, the target in its colours, and the error where the truth is given.
 
     Parameters
     ----------

@@ -137,7 +137,7 @@ def prepare(
 ) -> Shape:
     """Do the work that depends on one shape alone, so that matching it with many others reuses it.
 
-    ``mesh``: In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, faces
+    ``mesh``: in any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, faces
     that look inward are turned, second sides of faces, specks and vertices that no face uses are left out
     (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), with a
     warning. ``config``: its basis, descriptor and refinement settings count.
@@ -210,7 +210,7 @@ def _local_descriptors(
 
 
 def mirror_image(shape: Shape) -> Shape:
-    """The mirror image of a prepared shape, with the same vertices, functions and areas."""
+    """Return the mirror image of a prepared shape, with the same vertices, functions and areas."""
     if len(shape.mesh.faces) == 0:
         raise refuse(
             shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'preserving'"
@@ -265,7 +265,7 @@ def prepare_both(
     names: tuple[str, str] = ("source", "target"),
     progress: Progress | None = None,
 ) -> list[Shape]:
-    """Both shapes; side by side where they are small, since one small eigenproblem has no use for several cores.
+    """Prepare both shapes, side by side where they are small: one small eigenproblem has no use for several cores.
 
     What is a :class:`Shape` already is checked against ``config`` and handed on.
     """

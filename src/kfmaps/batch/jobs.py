@@ -111,7 +111,7 @@ class WorkerPool:
         Dask has as many tasks as can run at once, so there may be any number of them, and hands those of a worker that
         died to another.
 
-        ``label``: name of an item in the log. ``n_begun``: How often work on an item has begun. Dask blames every task
+        ``label``: name of an item in the log. ``n_begun``: how often work on an item has begun. Dask blames every task
         that was with a worker that died; an item that has not begun :data:`MAX_DEATHS` times is tried again.
         """
         from distributed import CancelledError, KilledWorker, as_completed
@@ -181,7 +181,7 @@ class WorkerPool:
 
 
 def dask_setup(worker: object) -> None:
-    """Called by Dask in each local worker process: leave Ctrl-C to the process that was started by the user."""
+    """Leave Ctrl-C to the process that the user started; Dask calls this in each local worker process."""
     del worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 

@@ -141,7 +141,7 @@ def choose_pairs(
 ) -> list[Pair]:
     """Return the pairs to match, each once and in order.
 
-    ``file``: Two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension.
+    ``file``: two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension.
     ``every``: every shape to every other one, both ways; ``star``: this shape as the source of all others.
     """
     names = list(collection.shapes)

@@ -46,7 +46,7 @@ class RunStatus:
         return f"{shapes}pairs {self.pairs_done}/{self.pairs}{failed}, {self.time_left()}"
 
     def time_left(self) -> str:
-        """The remaining time, and what it rests on."""
+        """Return the remaining time, and what it rests on."""
         if self.pairs_done == self.pairs:
             return "finished"
         if self.remaining is None:

@@ -146,7 +146,7 @@ def assess(
 
     ``target_to_source (n_t,)``: −1 where a vertex has no counterpart; ``place``: points inside triangles, whose errors
     are measured too; ``target``: where it is given, and both are surfaces, the map's smoothness is measured too.
-    ``mirrored``: Points of the mirrored truth at most, evenly through the list. They are far from their images, and
+    ``mirrored``: points of the mirrored truth at most, evenly through the list. They are far from their images, and
     distances to them take most of the time.
     """
     target_to_source = check_map(target_to_source, len(source.vertices), lost=True)

@@ -45,7 +45,7 @@ class MapStore(Protocol):
         ...
 
     def shape(self, number: int) -> Shape:
-        """The prepared shape with this number."""
+        """Return the prepared shape with this number."""
         ...
 
     def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:

@@ -65,7 +65,7 @@ def with_better_score(one: ScoredMap, other: ScoredMap) -> ScoredMap:
 
 
 def is_same_map(one: ScoredMap, other: ScoredMap) -> bool:
-    """Whether two candidates of a pair are one map but for details."""
+    """Return whether two candidates of a pair are one map but for details."""
     return one.reversed == other.reversed and float(((one.map - other.map) ** 2).sum()) / len(one.map) < SCORE.same_map
 
 

@@ -81,7 +81,7 @@ class _Problem:
         return sum(_log_likelihood(r, o, limit) for r, o in zip(residuals, self.log_odds, strict=True))
 
     def incident(self) -> list[list[int]]:
-        """The edges at each shape."""
+        """Return the edges at each shape."""
         around: list[list[int]] = [[] for _ in range(self.count)]
         for i, (a, b) in enumerate(self.ends):
             around[a].append(i)

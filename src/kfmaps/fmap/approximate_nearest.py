@@ -39,8 +39,8 @@ def approximate_nearest(
 ) -> np.ndarray:
     """Return for each query a point that is nearly the closest, (q,) int64.
 
-    ``queries (q, d)`` and ``points (p, d)``: At least one point. Rows whose leading columns are alike should be alike:
-    those of smooth functions on a surface, the lowest first. Otherwise more is missed. ``size``: Points in a cell,
+    ``queries (q, d)`` and ``points (p, d)``: at least one point. Rows whose leading columns are alike should be alike:
+    those of smooth functions on a surface, the lowest first. Otherwise more is missed. ``size``: points in a cell,
     about. With ``p`` all points are compared, in single precision. ``probes``: cells that each query names;
     ``threads``: Python threads; ``None`` takes every core; ``start (q,)``: for each query a point not far from the
     nearest: only the cells around it are searched; ``around``: how many cells these are.

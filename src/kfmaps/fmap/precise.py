@@ -112,7 +112,7 @@ def nearest_surface_points(
     only these few are looked at. All inner products follow from squared distances; those of the triangles that float32
     leaves in doubt are found again in float64.
 
-    ``queries (q, d)`` and ``points (p, d)``; ``faces (f, 3)``. ``exact``: By default while queries times points are at
+    ``queries (q, d)`` and ``points (p, d)``; ``faces (f, 3)``. ``exact``: by default while queries times points are at
     most ``EXACT_PAIRS``. Otherwise the nearest vertices are sought approximately, and only triangles of their
     neighbours are looked at.
     """

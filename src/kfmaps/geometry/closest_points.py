@@ -24,7 +24,7 @@ class ClosestPoints:
 def closest_points(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> ClosestPoints:
     """Return the closest point on a surface to each of some points, by libigl's search tree.
 
-    ``points (q, 3)``; ``vertices (n, 3)``. ``faces (f, 3)``: Faces without area count as the line or point that they
+    ``points (q, 3)``; ``vertices (n, 3)``. ``faces (f, 3)``: faces without area count as the line or point that they
     are. Of several faces at the same distance any may be the answer.
     """
     if len(faces) == 0:

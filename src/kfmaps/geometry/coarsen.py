@@ -73,7 +73,7 @@ def coarsen(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -
 def coarse_proxy(mesh: Mesh, vertices: np.ndarray) -> CoarseProxy:
     """Return a coarse copy of a mesh, without vertices that no face uses.
 
-    ``vertices (q,)``: Those of the copy, ascending. With all vertices the copy has all faces.
+    ``vertices (q,)``: those of the copy, ascending. With all vertices the copy has all faces.
     """
     owner = np.arange(len(vertices))
     coarse = mesh

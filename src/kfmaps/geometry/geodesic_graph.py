@@ -157,7 +157,7 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     edges in one place, whose ends are at no distance from each other. A vertex that no face uses is joined to nothing.
     The points of a cloud are joined to their 12 nearest neighbours, and all to one piece.
 
-    ``depth``: Edges that a line may cross: 0 for edges only (5 % longer than geodesics on even meshes), 1 for the
+    ``depth``: edges that a line may cross: 0 for edges only (5 % longer than geodesics on even meshes), 1 for the
     diagonals of neighbouring faces too, 4 for an error of 0.3 %. Entries per vertex: 6, 12, 35.
 
     Ying, Wang and He, Saddle vertex graph: a novel solution to the discrete geodesic problem (2013).

@@ -50,7 +50,7 @@ class Topology:
 def topology(mesh: Mesh) -> Topology:
     """Count components, boundaries, handles and defects of ``mesh``.
 
-    ``mesh``: Its face numbers within range (see :func:`kfmaps.geometry.mesh.check_mesh`). A point cloud has no
+    ``mesh``: its face numbers within range (see :func:`kfmaps.geometry.mesh.check_mesh`). A point cloud has no
     components.
     """
     n = len(mesh.vertices)

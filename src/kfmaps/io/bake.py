@@ -205,7 +205,7 @@ def bake_texture(
 ) -> np.ndarray:
     """Return a picture with the source's colours drawn into it, (h, w, 3) uint8.
 
-    ``found``: Where the faces lie in the source's picture. Those that are torn are worked out texel by texel: each
+    ``found``: where the faces lie in the source's picture. Those that are torn are worked out texel by texel: each
     takes the closest place on the source's surface. ``pixels (..., 3)``: the source's picture, :func:`decode_picture`;
     ``atlas (f, 3, 2)``: where the faces lie in the new picture; NaN for those that are not drawn. ``picture (h, w,
     3)``: What is there already, where ``covered (h, w)``; both are changed. Other texels get the colour of the nearest
@@ -232,7 +232,7 @@ def bake_texture(
 def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
     """Lay triangles side by side into rows.
 
-    ``edges (t, 3)``: lengths of the edges from corner i to the next, in texels. ``width``: Of a row, in texels. Where
+    ``edges (t, 3)``: lengths of the edges from corner i to the next, in texels. ``width``: of a row, in texels. Where
     the rows together are higher than this, all triangles are made smaller. Returns ``corners (t, 3, 2)``: in texels,
     from the upper left; ``height``: of all rows.
     """

@@ -158,7 +158,7 @@ class _Scene:
                 raise refuse(name, "unsigned vertex numbers", "others", REPAIR)
 
     def parts(self) -> list[_Part]:
-        """The parts of the scene in the order of the file: by mesh, primitive and node."""
+        """Return the parts of the scene in the order of the file: by mesh, primitive and node."""
         nodes, scenes = self.tree.get("nodes", []), self.tree.get("scenes", [])
         if scenes:
             roots = scenes[_count(self.tree.get("scene", 0))].get("nodes", [])
@@ -182,7 +182,7 @@ class _Scene:
         return sorted(parts, key=lambda p: p[:3])
 
     def rows(self, number: object) -> np.ndarray:
-        """The rows of an accessor, (count, width), not copied where they stand in their buffer."""
+        """Return the rows of an accessor, (count, width), not copied where they stand in their buffer."""
         accessor = self._one("accessors", number)
         item, width, count = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]], accessor["count"]
         sparse = accessor.get("sparse")
@@ -216,7 +216,7 @@ class _Scene:
         return rows.astype(np.float64)
 
     def mesh_file(self) -> MeshFile:
-        """All parts, one after another."""
+        """Return all parts, one after another."""
         name, parts = self.name, self.parts()
         if not parts:
             return MeshFile(Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)))

@@ -116,7 +116,7 @@ def check_format(path: str | Path) -> str:
 
 
 def check_npy(file: IO[bytes], size: int, name: str) -> float:
-    """How many numbers an .npy file of ``size`` bytes holds; refused when its header says more than fit into it."""
+    """Return how many numbers an .npy file of ``size`` bytes holds; refuse a header that says more than fit."""
     first = np.lib.format.read_magic(file) == (1, 0)
     read = np.lib.format.read_array_header_1_0 if first else np.lib.format.read_array_header_2_0
     shape, _, dtype = read(file)

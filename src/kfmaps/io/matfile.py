@@ -17,7 +17,7 @@ _CHAR, _NUMERIC, _COMPLEX = 4, range(6, 16), 0x0800
 
 
 def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarray | str]:
-    """The real arrays and texts of a .mat file by name; cells, structures and other kinds are left out.
+    """Return the real arrays and texts of a .mat file by name; cells, structures and other kinds are left out.
 
     ``name``: how messages call it; ``most``: bytes that the file may unpack to, every number counted as eight.
     """

@@ -48,7 +48,7 @@ class _Lines:
     said: list[tuple[int, str, str]]
 
     def of(self, kind: int) -> tuple[bytes, np.ndarray]:
-        """The text of the lines of one kind, and their numbers in the file."""
+        """Return the text of the lines of one kind, and their numbers in the file."""
         chosen = self.kind == kind
         return self.letters[np.repeat(chosen, self.length)].tobytes(), np.flatnonzero(chosen) + 1
 

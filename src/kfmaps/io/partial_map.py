@@ -24,7 +24,7 @@ def precise_points(found: np.ndarray | Match, source: Mesh) -> PointMap | None:
 def point_map(found: np.ndarray | Match, source: Mesh, target_to_source: np.ndarray) -> PointMap:
     """Return a point inside a triangle of a surface for each target vertex, at vertices where ``found`` has no others.
 
-    ``target_to_source (n_t,)``: Its vertices. A vertex of no face counts as the nearest that one has; without a
+    ``target_to_source (n_t,)``: its vertices. A vertex of no face counts as the nearest that one has; without a
     counterpart (−1) any is taken.
     """
     place = precise_points(found, source)

@@ -28,7 +28,7 @@ _MARKS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}  # h
 
 
 def picture_in(data: bytes) -> Picture | None:
-    """The picture that ``data`` is, told by its first bytes; ``None`` when it is neither PNG nor JPEG."""
+    """Return the picture that ``data`` is, told by its first bytes; ``None`` when it is neither PNG nor JPEG."""
     return next((Picture(data, kind) for mark, kind in _MARKS.items() if data.startswith(mark)), None)
 
 
@@ -85,7 +85,7 @@ class MeshFile:
 
 
 def fan(sizes: np.ndarray) -> np.ndarray:
-    """The triangles that polygons fall into, each polygon a fan around its first corner.
+    """Return the triangles that polygons fall into, each polygon a fan around its first corner.
 
     ``sizes (p,)``: how many corners each polygon has, at least 3. Returns (t, 3): positions in the list of all corners,
     one polygon after another, in the order of the polygons.
@@ -111,7 +111,7 @@ def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def gathered(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """The positions starts[i], ..., starts[i] + sizes[i] - 1 for every i, one run after another."""
+    """Return the positions starts[i], ..., starts[i] + sizes[i] - 1 for every i, one run after another."""
     first = np.cumsum(sizes) - sizes
     return np.repeat(starts - first, sizes) + np.arange(int(sizes.sum()))
 
@@ -124,7 +124,7 @@ def unit_colors(colors: np.ndarray) -> np.ndarray:
 def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
     """``colors`` as (n, 3) float64 from 0 to 1.
 
-    ``colors (n, 3)``: Fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
+    ``colors (n, 3)``: fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
     column (alpha) is left out.
     """
     colors = np.asarray(colors)

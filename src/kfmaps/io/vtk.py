@@ -42,7 +42,7 @@ class _Legacy:
         self.data, self.name, self.at, self.binary = data, name, at, binary
 
     def line(self) -> list[str]:
-        """The words of the next line that has any; none at the end of the file."""
+        """Return the words of the next line that has any; none at the end of the file."""
         while self.at < len(self.data):
             end = self.data.find(b"\n", self.at)
             end = len(self.data) if end < 0 else end
@@ -53,7 +53,7 @@ class _Legacy:
         return []
 
     def numbers(self, count: int, kind: str) -> np.ndarray:
-        """The next ``count`` numbers."""
+        """Return the next ``count`` numbers."""
         if self.binary:
             dtype = np.dtype(">" + TYPES[kind])
             values = np.frombuffer(self.data, dtype, count, self.at)

@@ -124,7 +124,7 @@ def assemble(
     rng: np.random.Generator,
     whole: tuple[Shape, Shape] | None = None,
 ) -> FitProblem:
-    """What ``config`` asks a map to keep: kernel, features and slices, from which energies are made.
+    """Return what ``config`` asks a map to keep: kernel, features and slices, from which energies are made.
 
     ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
     samples of shapes (:func:`kfmaps.shape.sample_shape`), ``whole`` are those shapes: orientation needs their faces.
@@ -201,7 +201,7 @@ def orientation_pair(
 
 
 def principal_features(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
-    """The ``count`` strongest directions of the features of both shapes, their common mean left out."""
+    """Return the ``count`` strongest directions of the features of both shapes, their common mean left out."""
     F = [to_numpy(features.source), to_numpy(features.target)]
     mass = [to_numpy(b.mass) for b in bases]
     whole = sum(float(m @ (f * f).sum(axis=1)) for m, f in zip(mass, F, strict=True))

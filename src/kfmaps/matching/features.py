@@ -215,7 +215,7 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
 
 
 def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
-    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
+    """Return the kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
     wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
     if wanted is not None and wanted != given:
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"

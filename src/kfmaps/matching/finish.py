@@ -40,7 +40,7 @@ class MatchTask:
     partial: MatchPart = field(default_factory=MatchPart)  # why the shapes were taken for whole
 
     def shapes(self, orientation: str) -> tuple[Shape, Shape]:
-        """Both cleaned shapes; the target mirrored where the map is to its mirror image."""
+        """Return both cleaned shapes; the target mirrored where the map is to its mirror image."""
         target = self.pair.target
         return self.pair.source, mirror_image(target) if orientation == "reversing" else target
 
@@ -70,7 +70,7 @@ class MatchTask:
 
 
 def refine_and_register(task: MatchTask, found: SearchResult, guidance: DescriptorGuidance | None) -> Match:
-    """The match of a map that a search or a fit has ``found``: refined, registered, in the numbers handed in."""
+    """Return the match of a map that a search or a fit has ``found``: refined, registered, in the numbers handed in."""
     pair, config, shapes = task.pair, task.config, task.shapes(found.orientation)
     back = None
     if config.formulation.bidirectional:
@@ -189,7 +189,7 @@ def match_from_map(
 
 
 def better_match(one: Match, other: Match) -> Match:
-    """The ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
+    """Return the ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
 
     Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
     only where a limb is torn or has been sent elsewhere, which no score of the search tells so well. Without that fit
@@ -201,12 +201,12 @@ def better_match(one: Match, other: Match) -> Match:
 
 
 def final_score(match: Match) -> float:
-    """The score of a match that a search has found, less the cost of its torn area."""
+    """Return the score of a match that a search has found, less the cost of its torn area."""
     return torn_score(match.score.scores[0], torn_area_fraction(match))
 
 
 def torn_area_fraction(match: Match) -> float | None:
-    """The share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
+    """Return the share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
 
     Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
     distances between shapes of other proportions are kept badly everywhere.

@@ -186,7 +186,7 @@ def fit_points(
     descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator = 0,
 ) -> FitPoints:
-    """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
+    """Return points of both shapes as ``config.fit_samples`` says, with the ``landmarks (l, 2)``, and descriptors."""
     descriptors = user_descriptors(source, target, config.descriptors, descriptors)
     sampled = sample_pair_for_fit(source, target, config.fit_samples, landmarks, descriptors, rng)
     small, bases = sampled.shapes, (sampled.shapes[0].basis, sampled.shapes[1].basis)

@@ -43,7 +43,7 @@ def refine_map(
     back: Array | None = None,
     progress: Progress | None = None,
 ) -> PostprocessedMap:
-    """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
+    """Return the points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
     ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
     or, without it, SHOT, where both shapes have it. With a map ``back (k_s, k_t)`` both are finished: ZoomOut refines

@@ -177,7 +177,7 @@ def sample_for_scoring(
 
 
 def sample_surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
-    """The surface itself or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
+    """Return the surface or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
     if len(shape.mesh.vertices) <= SURFACE:
         return shape.mesh, to_numpy(shape.basis.functions), wanted
     vertices = stratified_vertices(shape.basis, SURFACE, 0, np.unique(wanted))
@@ -186,7 +186,7 @@ def sample_surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, 
 
 
 def subsample(probe: ShapeSamples, count: int) -> ShapeSamples:
-    """The first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
+    """Return the first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
     basis = probe.samples.basis
     if count >= len(probe.samples.vertices):
         return probe
@@ -205,7 +205,7 @@ def subsample(probe: ShapeSamples, count: int) -> ShapeSamples:
 
 
 def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
-    """The areas (count,) that the first samples stand for when the others are given to the nearest of them."""
+    """Return the areas (count,) that the first samples stand for when the others are given to the nearest of them."""
     functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
     embedding = functions / np.maximum(values, max(1e-6 * values[-1], eigenvalue_tolerance(basis)))
     closest = nearest(embedding, embedding[:count], threads=1)
@@ -213,7 +213,7 @@ def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
 
 
 def mirror_samples(probe: ShapeSamples) -> ShapeSamples:
-    """The probe of the mirror image of the shape, with the same vertices."""
+    """Return the samples of the mirror image of the shape, with the same vertices."""
     return replace(
         probe,
         descriptors=None if probe.descriptors is None else mirror_shot(probe.descriptors),

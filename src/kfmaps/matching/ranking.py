@@ -80,7 +80,7 @@ class ProxyCache:
 def ranking(
     found: list[Candidate], samples: SamplePair, copies: ProxyCache, threads: int | None = None
 ) -> list[Candidate]:
-    """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
+    """Return the distinct ones of ``found``, best first; the first few are judged by the deformation energy too."""
     ranked = distinct(found, samples.source)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - SCORE.max_behind]
     tried = with_bending(near, copies, threads)
@@ -138,7 +138,7 @@ def merge_alternatives(
 
 
 def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
-    """The first two with how they look when bent; where they are close, bent with more points and patience too.
+    """Return the first two with how they look when bent; where they are close, bent with more points and patience too.
 
     A map that swaps front and back may come first by a margin that leaves no doubt to the score.
     """
@@ -164,7 +164,7 @@ def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
 
 
 def reference_values(found: list[Candidate], of: Callable[[list[float]], float]) -> tuple[float, float]:
-    """The strain and the mismatch of bent candidates that others are compared with: both depend on the shapes."""
+    """Return the strain and the mismatch that those of bent candidates are compared with: both depend on the shapes."""
     strains = [c.strain for c in found if c.strain is not None]
     shot_errors = [c.shot_error for c in found if c.shot_error is not None]
     return float(of(strains)) if strains else 0.0, float(of(shot_errors)) if shot_errors else 0.0
@@ -181,7 +181,7 @@ def normalize_errors(found: Candidate, usual: tuple[float, float]) -> Candidate:
 
 
 def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
-    """The best of ``found``, then the best of those that differ from it, and so on."""
+    """Return the best of ``found``, then the best of those that differ from it, and so on."""
     return distinct_maps(in_order(found), source, SCORE.distinct_distance)
 
 

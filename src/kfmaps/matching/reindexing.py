@@ -58,7 +58,7 @@ class VertexReindexing:
         return rows[0], rows[1]
 
     def points(self, target_to_source: np.ndarray) -> np.ndarray:
-        """A point map inside as one outside, (n_t,); −1 stays."""
+        """Return a point map inside as one outside, (n_t,); −1 stays."""
         return np.where(target_to_source < 0, -1, self.part_s.to_original[target_to_source])[self.part_t.to_clean]
 
     def points_within(self, target_to_source: np.ndarray) -> np.ndarray:
@@ -66,7 +66,7 @@ class VertexReindexing:
         return self.part_s.to_clean[target_to_source[self.part_t.to_original]]
 
     def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
-        """A point map back inside as one outside, (n_s,)."""
+        """Return a point map back inside as one outside, (n_s,)."""
         return self.part_t.to_original[source_to_target][self.part_s.to_clean]
 
     def place(self, places: PointMap) -> PointMap:
@@ -94,6 +94,6 @@ class VertexReindexing:
 
 
 def reindexing(source: Shape, target: Shape) -> VertexReindexing:
-    """What is inside two prepared shapes."""
+    """Return the numbers of the cleaned meshes of two prepared shapes beside those of the meshes as given."""
     (within_s, part_s), (within_t, part_t) = clean_shape(source), clean_shape(target)
     return VertexReindexing((source, target), within_s, within_t, part_s, part_t)

@@ -135,9 +135,9 @@ def search_map(
 ) -> SearchResult:
     """Find a map between two prepared shapes, as ``config.search`` says.
 
-    ``landmarks (l, 2)``: Pairs "source vertex, target vertex". They steer the candidates and rank them; those that the
+    ``landmarks (l, 2)``: pairs "source vertex, target vertex". They steer the candidates and rank them; those that the
     best map contradicts while it keeps to most of the others are left out
-    (:func:`kfmaps.matching.score.rejected_landmarks`). ``probes``: Of :func:`scoring_samples` with the same ``rng``:
+    (:func:`kfmaps.matching.score.rejected_landmarks`). ``probes``: of :func:`scoring_samples` with the same ``rng``:
     spares the work where a shape is matched many times. Not used with landmarks, whose distances they have too.
     """
     if config.search is None:
@@ -405,12 +405,12 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
 
 
 def ignore_landmarks(found: Candidate, samples: SamplePair, threads: int | None = None) -> Candidate:
-    """The map as it is when landmarks have no say: how it misses them then tells of both."""
+    """Return the map as it is when landmarks have no say: how it misses them then tells of both."""
     return rerefine([found], replace(samples, landmark_cost=None), threads)[0]
 
 
 def still_missed(best: Candidate, samples: SamplePair, evidence: LandmarkEvidence | None) -> np.ndarray:
-    """Which of all landmarks given the map misses, (l,).
+    """Return which of all landmarks given the map misses, (l,).
 
     One that a rough map of unlike shapes has missed, on a tail say, may be right by what that has been mended to, in
     which it had no say.
@@ -432,7 +432,7 @@ def backed_by(best: Candidate, samples: SamplePair, threads: int | None = None) 
 def without_landmarks(
     source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, rng: int, **more: Any
 ) -> list[Candidate]:
-    """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
+    """Return what is found without landmarks, judged with them: whoever gives some loses none of these maps."""
     bare = TwoLevelSamples(
         *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.few, samples.whole))
     )
@@ -445,9 +445,8 @@ def alternative_maps(
 ) -> tuple[np.ndarray, ...]:
     """Point maps ``(n_t,)`` of functional maps that are not finished.
 
-    Of a large source they name one of :data:`~kfmaps.fmap.zoomout.MAX_CANDIDATES` of its vertices, which lie
-    nearer to
-    each other than so few functions can tell: a quarter of the time.
+    Of a large source they name one of :data:`~kfmaps.fmap.zoomout.MAX_CANDIDATES` of its vertices, which lie nearer
+    to each other than so few functions can tell: a quarter of the time.
     """
     exact = False if len(source.mass) * len(target.mass) > MAX_EXACT_PAIRS else None
     vertices, few = np.arange(len(source.mass)), source
@@ -458,18 +457,18 @@ def alternative_maps(
 
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
-    """What a search with ``rng`` needs to know of one shape, whatever it is matched with."""
+    """Return what a search with ``rng`` needs to know of one shape, whatever it is matched with."""
     made = sample_for_scoring(clean_shape(shape)[0], rng=drawn_seed(seed_of(rng)), threads=1)
     return with_self_maps(made, subsample(made, FEW))
 
 
 def near_isometric(found: SearchResult) -> bool:
-    """Whether the shapes are so much alike that their high functions correspond; taken for granted without a search."""
+    """Return whether the shapes are so much alike that their high functions correspond; without a search they are."""
     return found.quality is None or found.quality >= SCORE.non_isometric_score
 
 
 def adapt_refinement(refinement: Refinement | None, found: SearchResult) -> Refinement | None:
-    """The refinement that a found map deserves: of shapes that differ much it ends with :data:`_FEWER` functions.
+    """Return the refinement for a found map: of shapes that differ much it ends with :data:`_FEWER` functions.
 
     Found on a gorilla and a woman, 5.2 instead of 8.5, and on cats and dogs, 10.5 instead of 10.9 on average, where
     people of other bodies lose nothing.
@@ -479,14 +478,14 @@ def adapt_refinement(refinement: Refinement | None, found: SearchResult) -> Refi
 
 
 def adapt_registration(finish: Any, found: SearchResult) -> Any:
-    """The non-rigid fit that a found map deserves: of shapes that differ much it lets sizes change."""
+    """Return the registration for a found map: of shapes that differ much it lets sizes change."""
     if getattr(finish, "local_scaling", 1) or near_isometric(found):
         return finish
     return replace(finish, local_scaling=STRETCH)
 
 
 def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | None = None) -> list[Candidate]:
-    """The candidates as maps to the mirror image, best first; the best are settled once more with its descriptors.
+    """Return the candidates as maps to the mirror image, best first; the best are refined with its descriptors.
 
     Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
     """
@@ -496,7 +495,7 @@ def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | N
 
 
 def deforms_unduly(found: Candidate) -> bool:
-    """Whether it bends the shapes much more than right maps do: something is wrong that its score does not see."""
+    """Return whether a map bends the shapes much more than right maps do: its score does not see what is wrong."""
     return (
         found.deformation_energy is not None
         and excess_deformation(found.quality.score, found.deformation_energy) > SCORE.excess_deformation

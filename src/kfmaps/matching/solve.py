@@ -64,7 +64,7 @@ def solve_problem(task: FitProblem, config: Config, report: Progress, start: Arr
 def minimize_problem(
     task: FitProblem, config: Config, start: Array | None = None, told: ProgressCallback | None = None
 ) -> Minimised:
-    """What minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
+    """Return what minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
     asked = config.formulation
     how = MinimizeOptions(config.solver, config.preconditioner, asked.max_outer_iter)
     if asked.weighs_features or asked.coupled_bases or asked.transport_weight:
@@ -88,7 +88,7 @@ def minimize_problem(
 def objective(
     task: FitProblem, config: Config, plain: Array | None, rotation: CoupledBases | None, reverse: bool = False
 ) -> Objective:
-    """What one direction minimises; ``plain`` is the least-squares map, where the formulation needs it."""
+    """Return what one direction minimises; ``plain`` is the least-squares map, where the formulation needs it."""
     asked = config.formulation
     energy = task.reverse if reverse else task.energy
     bases = task.bases[::-1] if reverse else task.bases

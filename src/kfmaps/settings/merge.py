@@ -18,7 +18,7 @@ _WANTED, _REMEDY = "a file that kfmaps learn wrote", "check the path, or learn a
 
 
 def read_learned(path: str | Path) -> JsonObject:
-    """What the file holds: tensors and plain values. Nothing in it is ever executed."""
+    """Return what the file holds: tensors and plain values. Nothing in it is ever executed."""
     try:
         import torch
     except ImportError as error:

@@ -116,7 +116,7 @@ def document(template: str, *, title: str, data: object, connect: bool = False) 
     """Return a whole page.
 
     ``template``: name of the template with the page's body; ``title``: any text; it is escaped; ``data``: what
-    :func:`kfmaps.viz.document.to_json` can turn into JSON; the script reads it as data only. ``connect``: Whether the
+    :func:`kfmaps.viz.document.to_json` can turn into JSON; the script reads it as data only. ``connect``: whether the
     page may send requests to its own server. A page for the disk may send none at all.
     """
     script, style = asset("viewer.js"), asset("viewer.css")

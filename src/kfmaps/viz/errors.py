@@ -17,7 +17,7 @@ def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray,
 
     NaN where the truth is not known, or a vertex has no counterpart.
 
-    ``truth_s (q,)`` and ``truth_t (q,)``: Corresponding vertices. Of several truths for one target vertex the last
+    ``truth_s (q,)`` and ``truth_t (q,)``: corresponding vertices. Of several truths for one target vertex the last
     counts.
     """
     rows = np.full((len(maps), len(maps[0])), np.nan)

@@ -68,7 +68,7 @@ _Routes = Mapping[tuple[str, str], Callable[[JsonObject], Reply]]
 class LocalServer:
     """Answer ``routes`` at ``address`` until stopped, one request after another.
 
-    ``routes``: What is answered; everything else is refused. No file is ever read on a request. ``port``: 0 takes any
+    ``routes``: what is answered; everything else is refused. No file is ever read on a request. ``port``: 0 takes any
     free one.
     """
 

@@ -107,7 +107,7 @@ def batch(
 
 
 def parse_workers(text: str | None) -> tuple[int | None, str | None]:
-    """The number of ``--workers``, or the address of a scheduler."""
+    """Return the number of ``--workers``, or the address of a scheduler."""
     if text is None:
         return None, None
     return (check_count(int(text), "--workers"), None) if text.lstrip("-").isdecimal() else (None, text)

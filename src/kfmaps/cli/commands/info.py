@@ -35,7 +35,7 @@ _DEFECTS = (
 
 
 def description(path: str | Path, content: MeshFile) -> JsonObject:
-    """What ``kfmaps info --json`` prints: sizes, extent, topology (None for a point cloud), colours."""
+    """Return what ``kfmaps info --json`` prints: sizes, extent, topology (None for a point cloud), colours."""
     mesh = content.mesh
     surface = len(mesh.faces) > 0
     counts = topology(mesh)

@@ -44,7 +44,7 @@ def fill_order(matrix: SparseMatrix) -> np.ndarray | None:
 def factorize(matrix: SparseMatrix, ordered: bool, each: Map = map) -> Solve:
     """Factorise ``matrix`` once and return the function that solves with it.
 
-    ``matrix (n, n)``: Symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is
+    ``matrix (n, n)``: symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is
     positive definite, else to be checked by its solutions. Then an ordering of ``A + Aᵀ`` serves, with half the factor
     that SciPy's default, made for unsymmetric matrices, gives. ``ordered``: whether the rows are already in a
     :func:`fill_order`; else SuperLU finds one; ``each``: ``map``, or that of a thread pool, over which the blocks of

@@ -32,7 +32,7 @@ def _boundary_opening(mesh: Mesh) -> float:
 
 
 def detect_part(source: Mesh, target: Mesh) -> PartDetection:
-    """Which of two surfaces may be a part of the other."""
+    """Return which of two surfaces may be a part of the other."""
     if len(source.faces) == 0 or len(target.faces) == 0:
         return PartDetection("none", "point clouds are taken for whole")
     openings: dict[Literal["source", "target"], float] = {

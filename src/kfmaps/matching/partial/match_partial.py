@@ -59,7 +59,7 @@ def match_partial(
 ) -> PartialMatch:
     """Match two prepared shapes of which one is a part.
 
-    ``which``: The part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
+    ``which``: the part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
     target where their units cannot be compared. ``landmarks (l, 2)``: pairs "source vertex, target vertex".
     """
     for shape in (source, target):
