@@ -18,6 +18,7 @@ from scipy.spatial import ConvexHull
 
 import kfmaps
 from kfmaps import MissingDependency
+from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 
@@ -79,6 +80,26 @@ def creatures() -> tuple[Any, Any, np.ndarray]:
     config = kfmaps.Config()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
     return shapes[0], shapes[1], made.truth
+
+
+@pytest.fixture(scope="module")
+def shape(request: pytest.FixtureRequest) -> Any:
+    """A blob, prepared as ``BLOBS`` of the test's module says: the settings, its vertices and those of ``other``."""
+    config, n, _ = request.module.BLOBS
+    return kfmaps.prepare(blob(n), config, name="blob")
+
+
+@pytest.fixture(scope="module")
+def other(request: pytest.FixtureRequest) -> Any:
+    """The blob of :func:`shape`, meshed anew."""
+    config, _, n = request.module.BLOBS
+    return kfmaps.prepare(blob(n, twist=0.4), config, name="other")
+
+
+@pytest.fixture(scope="module")
+def truth(shape: Any, other: Any) -> np.ndarray:
+    """The vertex of ``shape`` nearest to each of ``other``."""
+    return nearest(other.mesh.vertices, shape.mesh.vertices)
 
 
 @pytest.fixture

@@ -43,16 +43,7 @@ SMALL = replace(
     search=Search(candidates=2, n_sign_functions=3),
     threads=2,
 )
-
-
-@pytest.fixture(scope="module")
-def shape():
-    return prepare(blob(700), SMALL, name="blob")
-
-
-@pytest.fixture(scope="module")
-def other():
-    return prepare(blob(650, twist=0.4), SMALL, name="other")
+BLOBS = SMALL, 700, 650
 
 
 def reflected(mesh: Mesh) -> Mesh:

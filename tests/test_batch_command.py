@@ -39,6 +39,7 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     told = capsys.readouterr().out
     assert "2 pairs of 3 shapes" in told
     assert "pairs 2/2, finished" in told
+    assert "summary 1/1" in told
     with open(out / "results.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     mean = sum(float(row["error_mean"]) for row in rows) / 2

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from conftest import blob
 from kfmaps._arrays import inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
 from kfmaps.descriptors.spectral import heat_map, heat_signature
@@ -22,7 +21,7 @@ from kfmaps.matching.landmark_evidence import _HEAT_TIMES, heat_features
 from kfmaps.matching.quality import map_quality, sample_for_scoring
 from kfmaps.matching.score import Candidate, probability
 from kfmaps.matching.search import search_map
-from kfmaps.shape import Shape, mirror_image, prepare
+from kfmaps.shape import mirror_image
 
 GUARDS = ("kfmaps.config", "kfmaps.descriptors.spectral", "kfmaps.fmap.terms", "kfmaps.matching")
 
@@ -34,17 +33,8 @@ CONFIG = replace(
     refinement=None,
     threads=1,
 )
+BLOBS = CONFIG, 500, 420
 NO_LANDMARKS = np.zeros((0, 2), dtype=np.int64)
-
-
-@pytest.fixture(scope="module")
-def shape() -> Shape:
-    return prepare(blob(500), CONFIG, name="blob")
-
-
-@pytest.fixture(scope="module")
-def other() -> Shape:
-    return prepare(blob(420, twist=0.4), CONFIG, name="other")
 
 
 # A fit.

@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 
 import kfmaps
-from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
-from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.losses import RobustData
 from kfmaps.fmap.refine import ICP
@@ -36,6 +34,7 @@ SMALL = replace(
     refinement=None,
     threads=1,
 )
+BLOBS = SMALL, 300, 260
 FORMULATIONS = {
     "orthogonal": Formulation(constraint="orthogonal"),
     "both": Formulation(bidirectional=True),
@@ -61,22 +60,6 @@ FORMULATIONS = {
         transport_weight=0.1,
     ),
 }
-
-
-@pytest.fixture(scope="module")
-def shape():
-    return prepare(blob(300), SMALL, name="blob")
-
-
-@pytest.fixture(scope="module")
-def other():
-    return prepare(blob(260, twist=0.4), SMALL, name="other")
-
-
-@pytest.fixture(scope="module")
-def truth(shape, other):
-    """The source vertex nearest to each of the target's, one shape being another meshing of the other."""
-    return nearest(other.mesh.vertices, shape.mesh.vertices)
 
 
 def pairs(truth, rows):

@@ -45,27 +45,16 @@ SMALL = replace(
     refinement=ZoomOut(12, 40, 6),
     threads=1,
 )
+BLOBS = SMALL, 400, 360
 RAW = replace(SMALL, refinement=None)
 MARKS = np.array([[3, 3], [100, 100], [250, 250], [390, 390]])
 
 
 @pytest.fixture(scope="module")
-def shape():
-    return prepare(blob(400), SMALL, name="blob")
-
-
-@pytest.fixture(scope="module")
-def other():
-    return prepare(blob(360, twist=0.4), SMALL, name="other")
-
-
-@pytest.fixture(scope="module")
-def marks(shape, other):
+def marks(truth):
     """Corresponding vertices of the two meshings of one shape."""
-    from kfmaps.fmap.convert import nearest
-
     target = np.array([5, 90, 200, 300, 350])
-    return np.stack([nearest(other.mesh.vertices[target], shape.mesh.vertices), target], axis=1)
+    return np.stack([truth[target], target], axis=1)
 
 
 def energy_of(shape, other, config, marks, bases=None):

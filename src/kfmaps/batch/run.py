@@ -99,7 +99,9 @@ def run_batch(
             pool.close()  # what they are still at is not to end behind the back of the tables
         better = {} if agreed is None else {r.pair: r for r in agreed.results}
         everything = [better.get(r.pair, r) for r in all_results(plan.folder, plan.spec.digest)]
+        pool.progress("summary", 0, 1)
         files = _write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
+        pool.progress("summary", 1, 1)
     results = tuple(r for r in everything if r.pair in asked)
     failed = sum(r.status == "failed" for r in results)
     log("end", f"{len(results)} pairs have a result, {failed} of them failed", pairs=len(results), failed=failed)

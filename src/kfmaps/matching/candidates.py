@@ -21,6 +21,7 @@ from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.initial_maps import (
     FIT_POINTS,
+    MUCH,
     STARTS,
     WEIGHTS,
     KernelWeights,
@@ -41,7 +42,7 @@ from kfmaps.shape import Shape
 _QUICK = 2  # weights of the sign choices after which a search may end early: then the others are left out
 FINE = 80
 """Functions of refined candidates, which are scored."""
-FINE_WEIGHTS: tuple[KernelWeights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
+FINE_WEIGHTS: tuple[KernelWeights, ...] = (MUCH, (*MUCH, 30.0))
 """Without extremities and with them: distances from extremities mislead where a hand has grown to a thigh."""
 N_PERTURBATIONS = 6
 """Maps that start from a random symmetry of the low functions."""

@@ -36,10 +36,12 @@ from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import minimize_problem
 
 KernelWeights = tuple[float, ...]
-"""Of SHOT, of landmarks and of extremities."""
-WEIGHTS: tuple[KernelWeights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
-"""In the rough refinement of sign choices: none, so that symmetric maps are found too, much, and some."""
-FIT_WEIGHTS: tuple[KernelWeights, ...] = ((4.0, 12.0), (12.0, 12.0))
+"""Of SHOT (or of a learned metric), of landmarks and of extremities."""
+LITTLE: KernelWeights = (4.0, 12.0)
+MUCH: KernelWeights = (12.0, 12.0)
+WEIGHTS: tuple[KernelWeights, ...] = ((0.0, 0.0), MUCH, LITTLE)
+"""In the rough refinement of sign choices; with none symmetric maps are found too."""
+FIT_WEIGHTS: tuple[KernelWeights, ...] = (LITTLE, MUCH)
 EXTREMITY_FUNCTIONS = 12
 """Functions of the map that an extremity match starts from."""
 STARTS = (6, 10, 20)

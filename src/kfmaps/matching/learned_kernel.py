@@ -20,13 +20,20 @@ from kfmaps.kernels.kernels import KernelLike
 from kfmaps.kernels.transformed import Metric, Network, descriptor_width, n_kernel_landmarks
 from kfmaps.matching.candidates import by_score, distinct_maps, drawn_seed, refine_coarse, refine_finely, score_maps
 from kfmaps.matching.features import pair_descriptors, sample_pair_for_fit
-from kfmaps.matching.initial_maps import FIT_POINTS, LEARNED, STARTS, FitSpec, Start, fit_descriptor_set, sign_inits
+from kfmaps.matching.initial_maps import (
+    FIT_POINTS,
+    LEARNED,
+    MUCH,
+    STARTS,
+    FitSpec,
+    Start,
+    fit_descriptor_set,
+    sign_inits,
+)
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, descriptor_cost
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.shape import Shape
-
-_WEIGHTS = (12.0, 12.0)  # of the metric and of landmarks
 
 
 def drop_learned(config: Config) -> Config:
@@ -65,22 +72,20 @@ def learned_candidates(
         return []
     few, whole = (_in_metric(pair, *rows) for pair in (samples.few, samples.whole))
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    starts = [
-        s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == _WEIGHTS[0]
-    ]
+    starts = [s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == MUCH[0]]
     none = np.zeros((0, 2), dtype=np.int64)
     points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, rng)
     operators = samples.whole.source.orientation, samples.whole.target.orientation
     fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), 0.1) for k in (20, 50)]
     made = fit_descriptor_set(fits, points, config, operators, drawn_seed(rng))
     starts += [
-        Start(f"{spec.name}, from {start}", fit.functional_map, start, _WEIGHTS, True, fit=fit)
+        Start(f"{spec.name}, from {start}", fit.functional_map, start, MUCH, True, fit=fit)
         for spec, fit in zip(fits, made, strict=True)
         for start in STARTS
     ]
     found = by_score(refine_coarse(starts, few, functions, config.threads))
     chosen = distinct_maps(found, few.source, SCORE.rough_distance, 4)
-    refined = refine_finely(chosen, whole, functions, _WEIGHTS, (), config.threads)
+    refined = refine_finely(chosen, whole, functions, MUCH, (), config.threads)
     names = [(c.name if c.name.startswith(LEARNED) else f"{LEARNED}, {c.name}", True) for c in chosen]
     return score_maps(names, *refined, samples.whole, config.threads, [c.fit for c in chosen])
 
