@@ -34,7 +34,7 @@ def _is_torch(*arrays: Array) -> bool:
 
 
 def like(values: Array, reference: Array) -> Array:
-    """``values`` as a floating array of ``reference``'s library, dtype and device."""
+    """Return ``values`` as a floating array of ``reference``'s library, dtype and device."""
     xp = array_namespace(reference)
     return xp.asarray(values, dtype=reference.dtype, device=reference.device)
 
@@ -49,7 +49,7 @@ def to_numpy(array: Array) -> np.ndarray:
 
 
 def take(array: Array, indices: np.ndarray, axis: int = 0) -> Array:
-    """Rows (or columns, ``axis=1``) of ``array`` by NumPy ``indices``, on whatever device it lives."""
+    """Return rows (or columns, ``axis=1``) of ``array`` by NumPy ``indices``, on whatever device it lives."""
     if isinstance(array, np.ndarray) and axis == 0 and 3 * len(indices) < len(array):
         return array[indices]  # ndarray.take copies all of an array first whose columns lie together
     xp = array_namespace(array)
@@ -65,12 +65,12 @@ def seed_of(rng: int | np.random.Generator | None) -> int:
 
 
 def blocks(n: int, size: int) -> list[slice]:
-    """Slices that cut ``n`` rows into runs of ``size``, the last one shorter."""
+    """Return slices that cut ``n`` rows into runs of ``size``, the last one shorter."""
     return [slice(a, min(a + size, n)) for a in range(0, n, size)]
 
 
 def inner(x: Array, y: Array) -> float:
-    """Sum of elementwise products, as a Python number."""
+    """Return the sum of elementwise products, as a Python number."""
     return number(array_namespace(x, y).sum(x * y))
 
 

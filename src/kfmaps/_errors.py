@@ -35,7 +35,7 @@ def _sentence(text: str, first: str) -> str:
 
 
 def shown(text: str) -> str:
-    """``text`` fit for a terminal: control characters, and all else that cannot be printed, by their codes.
+    """Return ``text`` fit for a terminal: control characters, and all else that cannot be printed, by their codes.
 
     A file may be called anything; its name must not move the cursor, change colours or run together with the next.
     """

@@ -23,7 +23,7 @@ B = TypeVar("B")
 
 
 def available_cores() -> int:
-    """Cores that this process may use."""
+    """Return how many cores this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -64,7 +64,7 @@ def _libraries(modules: int) -> ThreadpoolController:
 
 
 def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:
-    """``[function(item) for item in items]`` over Python threads, with BLAS held to one thread.
+    """Return ``[function(item) for item in items]``, by Python threads, with BLAS held to one thread.
 
     ``threads``: how many at once; ``None`` takes every available core. With 1 it is a plain loop.
     """

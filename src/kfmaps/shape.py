@@ -103,7 +103,7 @@ class SampledShape:
 def sample_shape(
     shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | np.random.Generator = 0
 ) -> SampledShape:
-    """``shape`` on about ``count`` stratified points and the ``landmarks (l,)``; itself when it has no more.
+    """Return ``shape`` on about ``count`` stratified points and the ``landmarks (l,)``; itself when it has no more.
 
     ``None`` takes all points.
     """
@@ -119,7 +119,7 @@ def sample_shape(
 
 
 def clean_shape(shape: Shape) -> tuple[Shape, CleanedMesh]:
-    """``shape`` with each place once, faces outward, without unused vertices and specks, and how it is numbered.
+    """Return ``shape`` with each place once, faces outward, without unused vertices and specks, and how it is numbered.
 
     A match works on that; a shape that has nothing of the kind is returned as it is.
     """

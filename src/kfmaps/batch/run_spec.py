@@ -35,7 +35,7 @@ class RunSpec:
             raise refuse("--landmarks", "each line once", "one twice", "leave it out")
 
     def as_dict(self) -> dict[str, object]:
-        """As plain values, without the number of threads, which changes no result."""
+        """Return plain values, without the number of threads, which changes no result."""
         config = as_dict(self.config)
         del config["threads"]
         return {

@@ -114,7 +114,7 @@ class Accuracy:
     matched: float = 1.0
 
     def as_dict(self) -> dict[str, object]:
-        """Plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
+        """Return plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
         found = {**numbers_of(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
         if self.matched < 1:
             found["matched"] = self.matched

@@ -75,7 +75,7 @@ class PartAccuracy:
     missing: float  # part of the whole's area that the part lacks
 
     def as_dict(self) -> dict[str, object]:
-        """Plain numbers for JSON."""
+        """Return plain numbers for JSON."""
         known = {"matched": self.matched, "overlap": self.overlap, "missing": self.missing}
         finite = {name: value for name, value in known.items() if value is None or math.isfinite(value)}
         return {**numbers_of(self.errors), "points": len(self.errors.errors), **finite}

@@ -56,7 +56,7 @@ class _Pairs:
     count: int
 
     def total(self, values: np.ndarray) -> np.ndarray:
-        """Sums of ``values (..., p)`` over the pairs of each vertex, (..., count)."""
+        """Return sums of ``values (..., p)`` over the pairs of each vertex, (..., count)."""
         sums = np.zeros((*values.shape[:-1], self.count))
         if len(self.i):
             sums[..., self.i[self.first]] = np.add.reduceat(values, self.first, axis=-1)
@@ -73,7 +73,7 @@ class _Pairs:
         return np.flatnonzero(np.diff(self.i, prepend=-1))
 
     def along(self, axis: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-        """Of ``vectors (3, p)``, the part along the ``axis (count, 3)`` of each vertex."""
+        """Return the part of ``vectors (3, p)`` along the ``axis (count, 3)`` of each vertex."""
         x, y, z = axis.T.astype(vectors.dtype).take(self.i, axis=1) * vectors
         return x + y + z
 

@@ -46,7 +46,7 @@ def couple_bases(
     weight: float,
     start: Array | None = None,
 ) -> CoupledBases:
-    """Joint approximate diagonalisation of two Laplacians, coupled by corresponding functions.
+    """Diagonalise two Laplacians jointly and approximately, coupled by corresponding functions.
 
     Minimises ``½ Σ off(U_xᵀ Λ_x U_x) / ‖Λ_x‖² − weight tr(U_tᵀ cross U_s) / Σσ(cross)`` over rotations, where ``off``
     is the sum of squares off the diagonal and the last term is, up to a constant, the squared difference of the

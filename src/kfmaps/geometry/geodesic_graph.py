@@ -146,7 +146,7 @@ def _shortest(rows: np.ndarray, columns: np.ndarray, lengths: np.ndarray) -> tup
 
 
 def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
-    """Symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
+    """Return the symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
 
     It joins the ends of every edge and, for ``depth`` above 0, every two vertices that a straight line joins across up
     to ``depth`` edges once the faces on its way are laid flat. Such lines lie on the surface, so no path is shorter

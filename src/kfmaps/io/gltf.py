@@ -209,7 +209,7 @@ class _Scene:
         return np.ndarray((count, width), item, buffer, first + offset, (step, item.itemsize))
 
     def numbers(self, number: object) -> np.ndarray:
-        """As :meth:`rows`, in float64; whole numbers that stand for fractions are made those."""
+        """Return :meth:`rows` in float64; whole numbers that stand for fractions are made those."""
         rows = self.rows(number)
         if self.tree["accessors"][number].get("normalized") is True and rows.dtype.kind != "f":
             return rows / np.iinfo(rows.dtype).max

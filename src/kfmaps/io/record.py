@@ -117,12 +117,12 @@ def gathered(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
 
 
 def unit_colors(colors: np.ndarray) -> np.ndarray:
-    """Colours as files give them, as fractions: divided by 255 when any number is above 1, alpha left out."""
+    """Return colours as files give them, as fractions: divided by 255 when any number is above 1, alpha left out."""
     return np.clip(colors[:, :3] / (255.0 if colors.max(initial=0.0) > 1 else 1.0), 0.0, 1.0)
 
 
 def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
-    """``colors`` as (n, 3) float64 from 0 to 1.
+    """Return ``colors`` as (n, 3) float64 from 0 to 1.
 
     ``colors (n, 3)``: fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
     column (alpha) is left out.
@@ -140,5 +140,5 @@ def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
 
 
 def bytes_of(colors: np.ndarray) -> np.ndarray:
-    """Fractions from 0 to 1 as the nearest whole numbers from 0 to 255."""
+    """Return fractions from 0 to 1 as the nearest whole numbers from 0 to 255."""
     return np.rint(colors * 255).astype(np.uint8)

@@ -67,7 +67,7 @@ class _Legacy:
         return np.array([word[0] for word in words], dtype="S").astype(np.float64)
 
     def cells(self, words: list[str]) -> tuple[np.ndarray, np.ndarray]:
-        """Corners of cells and how many each has; version 5 has their ends instead."""
+        """Return the corners of cells and how many each has; version 5 has their ends instead."""
         count, size = int(words[1]), int(words[2])
         start = self.at
         following = self.line()
@@ -172,7 +172,7 @@ def _unpacked(block: bytes, size: np.dtype, raw: bool, packed: bool, name: str) 
     width = size.itemsize
 
     def take(first: int, count: int) -> bytes:
-        """``count`` bytes of what begins at ``first`` and is encoded by itself."""
+        """Return ``count`` bytes of what begins at ``first`` and is encoded by itself."""
         if raw:
             return block[first : first + count]
         return base64.b64decode(block[first : first + 4 * -(-count // 3)])[:count]

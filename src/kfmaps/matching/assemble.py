@@ -186,7 +186,7 @@ def orientation_pair(
     size: float,
     threads: int | None = None,
 ) -> tuple[Array, Array]:
-    """Slices of ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, ``k`` × ``k``, of both shapes (Ren et al. 2018).
+    """Return slices of ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, (k, k), of both shapes (Ren et al. 2018).
 
     The operators change sign under a mirror, so maps that commute with them keep orientation. Their summed squared
     norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.

@@ -109,7 +109,7 @@ def pair_descriptors(
     landmarks: np.ndarray,
     given: tuple[Array, Array] | None,
 ) -> Descriptors:
-    """Descriptors of both shapes as ``config`` asks.
+    """Return descriptors of both shapes as ``config`` asks.
 
     ``bases``: on the device where the work is done; ``landmarks (l, 2)``: pairs "source, target"; l may be 0;
     ``given``: descriptors of the user's own, beside the computed ones.
@@ -228,7 +228,7 @@ def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.rando
 def kernel_features(
     source: Shape, target: Shape, descriptors: Descriptors, config: Config, rng: np.random.Generator
 ) -> Features:
-    """Nyström features of the joint kernel, or the descriptors themselves when it is linear."""
+    """Return the Nyström features of the joint kernel, or the descriptors themselves when it is linear."""
     if isinstance(config.kernel, Linear):
         return Features(descriptors.source, descriptors.target, config.kernel)
     kernel = resolve_kernel_width(descriptors, config, rng)

@@ -87,7 +87,7 @@ class FitPoints:
 
 
 def check_landmark_pairs(landmarks: ArrayLike | None, source: Shape, target: Shape) -> np.ndarray:
-    """``landmarks`` as ``(l, 2)`` int64 "source, target"; ``None`` is none.
+    """Return ``landmarks`` as ``(l, 2)`` int64 "source, target", checked; ``None`` is none.
 
     Raises
     ------

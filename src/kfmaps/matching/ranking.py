@@ -103,7 +103,7 @@ def rerank_near_duplicates(
     distance: float = SCORE.rough_distance,
     behind: float = np.inf,
 ) -> list[Candidate]:
-    """``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
+    """Return ``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
 
     A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
     both are bent. None that is farther ``behind`` before that.
@@ -116,7 +116,7 @@ def rerank_near_duplicates(
 
 
 def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
-    """``found`` with how far the coarse copies must bend; none where a shape has no copy to bend."""
+    """Return ``found`` with how far the coarse copies must bend, unknown where a shape has no copy to bend."""
     if not found or copies.coarse is None:
         return []
     pair = copies.coarse
@@ -127,7 +127,7 @@ def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None
 def merge_alternatives(
     ranked: list[Candidate], more: list[Candidate], samples: SamplePair, copies: ProxyCache, threads: int | None = None
 ) -> list[Candidate]:
-    """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
+    """Return ``ranked`` and the best of ``more`` that differs from all, first where it is clearly better."""
     others = [c for c in more if all(map_distance(c, one, samples.source) > SCORE.distinct_distance for one in ranked)]
     if not others or max(c.quality.score for c in others) < ranked[0].quality.score - SCORE.max_behind:
         return ranked
@@ -158,7 +158,7 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
 
 
 def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
-    """With what its map says when the copies are bent with more patience."""
+    """Return a candidate with what its map says when the copies are bent with more patience."""
     one = deform(found.functional_map, pair, PATIENT)
     return replace(found, deformation_energy=one.energy, strain=one.strain, shot_error=None)
 
@@ -171,7 +171,7 @@ def reference_values(found: list[Candidate], of: Callable[[list[float]], float])
 
 
 def normalize_errors(found: Candidate, usual: tuple[float, float]) -> Candidate:
-    """With strain and mismatch, where they are known, over the usual ones."""
+    """Return a candidate with strain and mismatch, where they are known, less those of ``usual``."""
     strain, shot_errors = found.strain, found.shot_error
     return replace(
         found,
@@ -186,7 +186,7 @@ def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
 
 
 def in_order(found: list[Candidate]) -> list[Candidate]:
-    """Best first.
+    """Return them best first.
 
     A rival, which no descriptors speak for, comes first only when it is clearly better than every other candidate.
     """

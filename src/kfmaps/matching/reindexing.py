@@ -29,7 +29,7 @@ class VertexReindexing:
         return self.part_s.whole and self.part_t.whole
 
     def landmarks(self, given: Array) -> Array:
-        """Landmarks ``(l, 2)`` outside as those inside; ``None`` stays."""
+        """Return landmarks ``(l, 2)`` outside as those inside; ``None`` stays."""
         if given is None or self.open:
             return given
         pairs = check_landmark_pairs(given, *self.outside)
@@ -46,7 +46,7 @@ class VertexReindexing:
         return np.stack(columns, axis=1)
 
     def descriptors(self, given: tuple[Array, Array] | None) -> tuple[Array, Array] | None:
-        """Descriptors ``(n_s, d)``, ``(n_t, d)`` of the user's own, the rows of the vertices inside; ``None`` stays."""
+        """Return the rows inside of the user's descriptors ``(n_s, d)``, ``(n_t, d)``; ``None`` stays."""
         if given is None or self.open:
             return given
         rows = []
@@ -70,26 +70,26 @@ class VertexReindexing:
         return self.part_t.to_original[source_to_target][self.part_s.to_clean]
 
     def place(self, places: PointMap) -> PointMap:
-        """Points in triangles inside as such outside."""
+        """Return points in triangles inside as such outside."""
         faces, weights, turned = self.part_s.faces_to_original[places.faces], places.weights, self.part_s.turned
         if turned is not None:
             weights = np.where(turned[places.faces][:, None], weights[:, ::-1], weights)
         return PointMap(faces[self.part_t.to_clean], weights[self.part_t.to_clean])
 
     def bent(self, vertices: np.ndarray) -> np.ndarray:
-        """Positions on the target of the source's vertices inside (m_s, 3), as outside (n_s, 3): in its unit there."""
+        """Return registered vertices of the source inside (m_s, 3) as outside (n_s, 3), in the target's unit there."""
         here, there = self.target.mesh.vertices, self.outside[1].mesh.vertices[self.part_t.to_original]
         scale = np.linalg.norm(there - there.mean(axis=0)) / np.linalg.norm(here - here.mean(axis=0))
         return scale * (vertices - here.mean(axis=0))[self.part_s.to_clean] + there.mean(axis=0)
 
     def overlap(self, source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Probabilities inside (m_s,) and (m_t,) as outside (n_s,), (n_t,): none in vertices that lie on no surface."""
+        """Return probabilities inside (m_s,), (m_t,) as outside (n_s,), (n_t,): 0 in vertices of no face."""
         sides = ((source, self.part_s), (target, self.part_t))
         first, second = (np.where(part.unreferenced, 0.0, values[part.to_clean]) for values, part in sides)
         return first, second
 
     def trust(self, confidence: np.ndarray) -> np.ndarray:
-        """Confidence inside (m_t,) as outside (n_t,): none in vertices that lie on no surface."""
+        """Return confidence inside (m_t,) as outside (n_t,): 0 in vertices of no face."""
         return np.where(self.part_t.unreferenced, 0.0, confidence[self.part_t.to_clean])
 
 

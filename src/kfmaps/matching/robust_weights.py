@@ -33,7 +33,7 @@ class RobustWeights:
 
 
 def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config) -> RobustWeights:
-    """``descriptors`` scaled by the square roots of the weights that a robust loss per landmark or descriptor gives.
+    """Return ``descriptors`` times square roots of the weights of a robust loss per landmark or descriptor.
 
     ``descriptors``: those of no landmark keep their size when the loss is per landmark; ``config``: its formulation and
     weights count.

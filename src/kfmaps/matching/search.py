@@ -422,7 +422,7 @@ def still_missed(best: Candidate, samples: SamplePair, evidence: LandmarkEvidenc
 
 
 def backed_by(best: Candidate, samples: SamplePair, threads: int | None = None) -> float:
-    """:func:`kfmaps.matching.score.landmark_support` of the map by the landmarks, 0 without any."""
+    """Return :func:`kfmaps.matching.score.landmark_support` of a map by the landmarks, 0 without any."""
     if samples.landmark_evidence is None:
         return 0.0
     errors = ignore_landmarks(best, samples, threads).landmark_errors
@@ -443,7 +443,7 @@ def without_landmarks(
 def alternative_maps(
     maps: list[np.ndarray], source: Basis, target: Basis, threads: int | None = None
 ) -> tuple[np.ndarray, ...]:
-    """Point maps ``(n_t,)`` of functional maps that are not finished.
+    """Return point maps ``(n_t,)`` of functional maps that are not finished.
 
     Of a large source they name one of :data:`~kfmaps.fmap.zoomout.MAX_CANDIDATES` of its vertices, which lie nearer
     to each other than so few functions can tell: a quarter of the time.

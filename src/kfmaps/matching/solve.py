@@ -36,7 +36,7 @@ class Minimised:
 
 
 def solve_problem(task: FitProblem, config: Config, report: Progress, start: Array | None = None) -> Minimised:
-    """:func:`minimize_problem` from ``start`` where one is given, which is checked; told as the stage "solve"."""
+    """Return :func:`minimize_problem` from ``start``, which is checked where given; tell it as the stage "solve"."""
     if start is not None:
         right = task.energy.rhs()
         start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
@@ -121,6 +121,6 @@ def objective(
 
 
 def typical(energy: Energy) -> float:
-    """Mean of the operator's diagonal: what weights of further terms are measured in, so that they have no unit."""
+    """Return the mean of the operator's diagonal, the unit of the weights of further terms."""
     diagonal = energy.diagonal()
     return float(np.mean(to_numpy(diagonal)))

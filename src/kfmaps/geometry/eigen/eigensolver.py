@@ -256,11 +256,11 @@ class _Pencil:
         self.solve = factorize(shifted.astype(precision, copy=False), ordered, each)
 
     def inverse(self, block: np.ndarray) -> np.ndarray:
-        """``√A (L + σA)⁻¹ √A`` times the block."""
+        """Return ``√A (L + σA)⁻¹ √A`` times the block."""
         return self.root[:, None] * self.solve(self.root[:, None] * block)
 
     def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Rayleigh quotients and scaled residuals of the columns, a few of which at once fit the cache."""
+        """Return Rayleigh quotients and scaled residuals of the columns, a few of which at once fit the cache."""
         found = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], 16)]
         return np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
 
