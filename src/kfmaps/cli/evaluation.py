@@ -162,19 +162,20 @@ def assess(
 
     swapped = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
     precise = smooth = None
+    matched = target_to_source[truth.target] >= 0
     # A vertex that no face uses lies in no triangle.
     if place is not None and np.isin(truth.source, source.faces).all():
-        rows = truth.target[target_to_source[truth.target] >= 0]
+        rows = truth.target[matched]
         at = PointMap(place.faces[rows], place.weights[rows])
-        precise = summarize_errors(precise_errors(source, at, truth.source[target_to_source[truth.target] >= 0]))
+        precise = summarize_errors(precise_errors(source, at, truth.source[matched]))
     lost = target_to_source < 0
     whole = place is not None or bool(np.isin(target_to_source[~lost], source.faces).all())
     if target is not None and len(target.faces) and whole:
         common = Mesh(target.vertices, target.faces[~lost[target.faces].any(axis=1)])
         if len(common.faces):
             smooth = smoothness(source, common, np.maximum(target_to_source, 0) if place is None else place)
-    matched = float((target_to_source[truth.target] >= 0).mean())
-    return Accuracy(errors(truth.target), swapped, coverage(target_to_source, source), precise, smooth, matched)
+    reached = coverage(target_to_source, source)
+    return Accuracy(errors(truth.target), swapped, reached, precise, smooth, float(matched.mean()))
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:
