@@ -315,7 +315,7 @@ def test_coupled_bases(case):
     f = source.functions @ (0 * source.eigenvalues[:, None] + 1.0)
     np.testing.assert_allclose(
         to_numpy(T.functions @ (C @ S.project(f))),
-        to_numpy(target.functions @ (found.from_rotated(C) @ source.project(f))),
+        to_numpy(target.functions @ (found.U_t @ C @ found.U_s.T @ source.project(f))),
         atol=1e-9,
     )
 

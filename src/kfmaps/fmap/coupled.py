@@ -34,10 +34,6 @@ class CoupledBases:
         """
         return _rotated(source, self.U_s), _rotated(target, self.U_t)
 
-    def from_rotated(self, C: Array) -> Array:
-        """Return a map ``C`` between the coupled bases as one between the original ones."""
-        return self.U_t @ C @ self.U_s.T
-
 
 def couple_bases(
     values_s: Array,
