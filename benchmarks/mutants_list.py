@@ -224,7 +224,7 @@ MUTANTS = tuple(
             f"{MATCH} -k half",
         ),
         ("scale = (size / total) ** 0.5 if total", "scale = size / total if total", f"{MATCH} -k orientation"),
-        ("self.orientations[t], parity=-1)", "self.orientations[t])", f"{MATCH} -k orientation"),
+        ("self.orientations, -1)", "self.orientations, 1)", f"{MATCH} -k orientation"),
         ("size = sum(inner(X, X) for X in packed)", "size = inner(packed[0], packed[0])", MATCH),
         (
             "for m, f in zip(mass, F, strict=True)) / 2",
@@ -929,8 +929,8 @@ MUTANTS = tuple(
         ),
         ("limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)", "limbs, setting.shot)", "test_landmark_evidence -k mended"),
         (
-            "registration_pair(source, target, finer.copies, landmarks)",
-            "registration_pair(source, target, finer.copies)",
+            "finer.copies, landmarks, (finer",
+            "finer.copies, None, (finer",
             "test_landmark_evidence -k mended",
         ),
         (

@@ -17,7 +17,7 @@ from kfmaps.fmap.energy import (
     value,
 )
 from kfmaps.fmap.multiplication_operators import multiplication_operators, truncate_operators, unpack_operators
-from kfmaps.fmap.solvers import dense_matrix
+from kfmaps.fmap.solvers import CG, dense_matrix, solve
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
 from kfmaps.kernels.nystrom import nystrom
 
@@ -118,6 +118,20 @@ def test_laws(name, case, asarray, convert, rng):
     h = 1e-5
     slope = (value(term, a + h * b) - value(term, a - h * b)) / (2 * h)
     assert slope == pytest.approx(inner(term.apply(a) - term.rhs(), b), rel=1e-6, abs=1e-8)
+
+
+@pytest.mark.parametrize("parity", [1, -1])
+def test_slices_in_single_precision(parity, rng):
+    """Only the products that couple both sides are rounded; conjugate gradients reach 1e-6 of the right-hand side."""
+    S = [X + parity * X.transpose(0, 2, 1) for X in (rng.normal(size=(6, k, k)) for k in (K_S, K_T))]
+    rounded, exact = (operator_term(*S, parity=parity, single=single) for single in (True, False))
+    C = rng.normal(size=(K_T, K_S))
+    error, coupling = rounded.apply(C) - exact.apply(C), sum(t @ C @ s for s, t in zip(*S, strict=True))
+    assert 1e-9 < np.linalg.norm(error) / np.linalg.norm(coupling) < 5e-7
+    for a, b in zip(rounded.sides(), exact.sides(), strict=True):
+        np.testing.assert_array_equal(a, b)
+    found = solve(rounded.apply, C, CG(rtol=1e-6))
+    assert np.linalg.norm(exact.apply(found.value) - C) < 1.1e-6 * np.linalg.norm(C)
 
 
 @pytest.mark.parametrize("kernel", [Linear(), Polynomial(2, 0.5), Gaussian(0.4)], ids=repr)

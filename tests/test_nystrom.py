@@ -1,5 +1,7 @@
 """Samplers and the Nyström approximation."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -90,6 +92,15 @@ def test_farthest_points_are_farthest(rng):
     for i in range(1, 12):
         distance = np.linalg.norm(X[:, None] - X[rows[:i]], axis=2).min(axis=1)
         assert distance[rows[i]] == pytest.approx(distance.max())
+
+
+def test_farthest_points_owe_nothing_to_single_precision(rng):
+    """Two clusters so far apart that single precision does not see what is inside them."""
+    X = rng.normal(size=(300, 5)) + 1e4 * (np.arange(300) % 2)[:, None]
+    rows, nearest = farthest_descriptors(X, 40), np.full(300, np.inf)
+    for before, following in pairwise(rows):
+        nearest = np.minimum(nearest, ((X - X[before]) ** 2).sum(axis=1))
+        assert following == nearest.argmax()
 
 
 def test_cholesky_pivots_are_the_largest_residuals(rng):

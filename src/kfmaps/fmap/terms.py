@@ -155,7 +155,8 @@ class OperatorCommutativity:
     """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`operator_term`.
 
     ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the orientation
-    operators). The slices lie in two layouts that turn one application into two matrix products.
+    operators). The slices lie in two layouts that turn one application into two matrix products, in the precision that
+    they are stored in; the Gram matrices, without which small differences would be lost, are not rounded.
     """
 
     left: Array  # (k_t · r, k_t): the target's slices, row a of slice i at a·r + i
@@ -173,7 +174,7 @@ class OperatorCommutativity:
     def apply(self, C: Array) -> Array:
         xp = namespace(C)
         k_t, k_s = C.shape
-        carried = xp.reshape(self.left @ C, (k_t, self.count * k_s))
+        carried = xp.reshape(self.left @ xp.astype(C, self.left.dtype, copy=False), (k_t, self.count * k_s))
         return C @ self.gram_s + self.gram_t @ C - (2 * self.parity) * (carried @ self.right)
 
     def rhs(self) -> Array:
@@ -199,7 +200,7 @@ class OperatorCommutativity:
         return own - 2 * (of_t.T @ of_s)  # zero where the slices are antisymmetric, in every basis
 
 
-def operator_term(slices_s: Array, slices_t: Array, parity: int = 1) -> OperatorCommutativity:
+def operator_term(slices_s: Array, slices_t: Array, parity: int = 1, single: bool = False) -> OperatorCommutativity:
     """Return the commutativity with operators, ``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²``.
 
     Parameters
@@ -207,6 +208,9 @@ def operator_term(slices_s: Array, slices_t: Array, parity: int = 1) -> Operator
     slices_s, slices_t : (r, k_s, k_s), (r, k_t, k_t)
     parity : {1, -1}
         Whether they are symmetric (multiplication by a function) or antisymmetric (orientation operators).
+    single : bool
+        Whether :meth:`OperatorCommutativity.apply` multiplies by them in single precision: half of the time, and
+        conjugate gradients reach a relative residual of 1e-7.
 
     Raises
     ------
@@ -225,7 +229,10 @@ def operator_term(slices_s: Array, slices_t: Array, parity: int = 1) -> Operator
     # Xᵀ = parity X, so that Σ X Xᵀ = parity Σ X X is a Gram matrix of the stacked rows.
     flat_t = xp.reshape(slices_t, (r * k_t, k_t))
     cross = xp.linalg.diagonal(slices_t).T @ xp.linalg.diagonal(slices_s)
-    return OperatorCommutativity(left, right, right.T @ right, flat_t.T @ flat_t, cross, parity)
+    grams = right.T @ right, flat_t.T @ flat_t
+    if single:
+        left, right = xp.astype(left, xp.float32), xp.astype(right, xp.float32)
+    return OperatorCommutativity(left, right, *grams, cross, parity)
 
 
 @dataclass(frozen=True, eq=False)

@@ -42,6 +42,9 @@ def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None =
         return drawn[farthest_descriptors(X[drawn], count, draw, None)]
     X = X - X.mean(axis=0)
     squares = np.einsum("ij,ij->i", X, X)
+    # Most rows turn out in single precision not to be nearer; squared distances are wrong by ``slack`` there at most.
+    size = np.sqrt(squares.max()) or 1.0
+    single, slack = (X / size).astype(np.float32), 2.02 * (X.shape[1] + 2) * 2.0**-24 * size**2
     taken = np.empty(count, dtype=np.int64)
     nearest, owner = np.full(len(X), np.inf), np.zeros(len(X), dtype=np.int64)
     following = int(draw.integers(len(X)))
@@ -50,6 +53,8 @@ def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None =
         apart = squares[taken[: i + 1]] + squares[following] - 2 * (X[taken[: i + 1]] @ X[following])
         # A row that is at most half as far from the one taken as that is from the new one is not nearer to the new one.
         rows = np.flatnonzero(4 * nearest > apart[owner])
+        about = squares[rows] + squares[following] - 2 * size**2 * (single[rows] @ single[following])
+        rows = rows[about < nearest[rows] + slack]
         away = X[rows] @ X[following]
         away *= -2
         away += squares[rows]

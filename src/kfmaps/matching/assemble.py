@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from kfmaps._arrays import Array, inner, like, refuse, to_numpy
+from kfmaps._arrays import Array, inner, is_numpy, like, refuse, to_numpy
 from kfmaps.config import Config
 from kfmaps.fmap.energy import (
     Energy,
@@ -101,10 +101,11 @@ class FitProblem:
         elif weights.descriptors:
             F = (self.features.source, self.features.target)
             terms["descriptors"] = descriptor_term(small[s], F[s], small[t], F[t])
-        if self.multiplications is not None:
-            terms["commutativity"] = operator_term(self.multiplications[s], self.multiplications[t])
-        if self.orientations is not None:
-            terms["orientation"] = operator_term(self.orientations[s], self.orientations[t], parity=-1)
+        sets = (("commutativity", self.multiplications, 1), ("orientation", self.orientations, -1))
+        for name, slices, parity in sets:
+            if slices is not None:
+                single = is_numpy(*slices) and _serves_in_single(self.config.operator_rtol)
+                terms[name] = operator_term(slices[s], slices[t], parity, single)
         energy = Energy(terms, {name: getattr(weights, name) for name in terms})
         pair = [replace(shape, basis=basis) for shape, basis in zip(self.shapes, small, strict=True)]
         more = {}
@@ -161,13 +162,16 @@ def compressed_operators(
     formed = features.source, features.target
     if rtol:
         formed = truncate_features(bases[0], formed[0], bases[1], formed[1], CONDENSATION * rtol)
-    # In single precision where less than its error is left out anyway.
-    single_rtol = 1e-10  # compression from which operators are formed in single precision
     packed_s, packed_t = (
-        multiplication_operators(b, F, threads=threads, single=rtol >= single_rtol)
+        multiplication_operators(b, F, threads=threads, single=_serves_in_single(rtol))
         for b, F in zip(bases, formed, strict=True)
     )
     return truncate_operators(packed_s, packed_t, rtol) if rtol else (packed_s, packed_t)
+
+
+def _serves_in_single(rtol: float) -> bool:
+    """Return whether a compression to ``rtol`` leaves out more than single precision rounds."""
+    return rtol >= 1e-10
 
 
 def scale_operators(pair: Sequence[Array], size: float) -> tuple[Array, Array]:

@@ -102,7 +102,7 @@ def refine_by_registration(
     if finer is None:
         return ranked, ()
     source, target = copies.source, copies.image
-    pair = registration_pair(source, target, finer.copies, landmarks)
+    pair = registration_pair(source, target, finer.copies, landmarks, (finer.forth, finer.back))
     shot, graphs = descriptor_guidance(source.shot, target.shot), [geodesic_graph(s.mesh, 1) for s in (source, target)]
     setting = RepairSetting(source, target, pair, finer, samples, landmarks, shot, (graphs[0], graphs[1]))
     near, rest = repairable(ranked, samples.source)

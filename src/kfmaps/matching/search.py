@@ -257,7 +257,8 @@ def _repair_best(state: _Search) -> _Search:
     if copies.coarse is None:
         return state
     guidance = build_guidance(state.source, copies.image, state.pairs)
-    pair = registration_pair(state.source, copies.image, copies.coarse.copies, state.pairs)
+    coarse = copies.coarse
+    pair = registration_pair(state.source, copies.image, coarse.copies, state.pairs, (coarse.forth, coarse.back))
     one = register_map_on_proxies(best.functional_map, pair, guidance)
     if one is None:
         return state

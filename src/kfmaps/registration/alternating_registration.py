@@ -62,11 +62,16 @@ class AlternatingResult:
 
 
 def registration_pair(
-    source: Shape, target: Shape, copies: tuple[CoarseProxy, CoarseProxy], landmarks: np.ndarray | None = None
+    source: Shape,
+    target: Shape,
+    copies: tuple[CoarseProxy, CoarseProxy],
+    landmarks: np.ndarray | None = None,
+    ways: tuple[MeshPair, MeshPair] | None = None,
 ) -> RegistrationPair:
     """Return what an alternating registration of two shapes works on.
 
-    ``landmarks (l, 2)``: vertices of the shapes, of which the nearest of the copies are taken.
+    ``landmarks (l, 2)``: vertices of the shapes, of which the nearest of the copies are taken; ``ways``: the copies
+    ready to be bent onto each other, where they are so already.
     """
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     near = [
@@ -74,8 +79,9 @@ def registration_pair(
         for shape, copy, at in zip((source, target), copies, marks.T, strict=True)
     ]
     bases = _sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])
-    a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
-    ways = mesh_pair(a, b.mesh), mesh_pair(b, a.mesh)
+    if ways is None:
+        a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
+        ways = mesh_pair(a, b.mesh), mesh_pair(b, a.mesh)
     return RegistrationPair(source, target, copies, bases, np.stack(near, axis=1), ways)
 
 
