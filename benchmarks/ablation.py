@@ -3,7 +3,7 @@
     python benchmarks/ablation.py --data DIR [--sets SMAL_r,catdog] [--half choice] [--pairs 3] [--seeds 0]
         [--pieces no kernel fits,no repairs] [--rows FILE] [--cache DIR]
 
-Without ``--pieces`` all of :data:`PIECES` are tried. Pairs, halves and DIR are as for benchmarks/scatter.py. For each
+Without ``--pieces`` all of :data:`PIECES` are tried. Pairs, halves and DIR are as for benchmarks/automatic.py. For each
 piece stand there, over all pairs, the mean error × 100 without the change and with it, the mean change with its
 interval of 95 % (by drawing pairs), the largest rise and fall of a pair, and of all maps those that are right (below
 8), called "sure" and called so wrongly, and CPU seconds. ``--rows`` keeps every match in a file of JSON lines; the same

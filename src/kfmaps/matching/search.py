@@ -9,6 +9,7 @@ well, in which case the answer is "ambiguous".
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -148,12 +149,16 @@ def search_map(
     pairs = check_landmark_pairs(landmarks, source, target)
     everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, given, probes), pairs)
     report("candidates", 0.1)
-    plain, begin, part = drop_learned(config), *((0.5, 0.4) if len(pairs) else (0.1, 0.8))
+    plain = drop_learned(config)
     own = user_descriptors(source, target, config.descriptors, descriptors)
+
+    def between(begin: float, end: float) -> Callable[[float], None]:
+        return lambda done: report("candidates", begin + (end - begin) * done)
+
     alone: list[Candidate] = []
     if len(pairs):
-        second = lambda done: report("candidates", 0.1 + 0.4 * done)  # noqa: E731
-        alone = without_landmarks(source, target, plain, everything, given, descriptors=own, report=second)
+        half = between(0.1, 0.5)
+        alone = without_landmarks(source, target, plain, everything, given, descriptors=own, report=half)
 
     none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
     evidence = everything.whole.landmark_evidence
@@ -161,11 +166,11 @@ def search_map(
 
     def search_with(wrong: np.ndarray) -> _Search:
         kept = drop_landmarks(everything, wrong) if wrong.any() else everything
-        first = lambda done: report("candidates", begin + part * done)  # noqa: E731
+        rest = between(0.5 if len(pairs) else 0.1, 0.9)
         found: list[Candidate] = []
         if not len(pairs) or not wrong.all():
             left = pairs[~wrong]
-            found = candidates(source, target, plain, kept, given, landmarks=left, descriptors=own, report=first)
+            found = candidates(source, target, plain, kept, given, landmarks=left, descriptors=own, report=rest)
         free = rescore(alone, kept.whole, config.threads) if alone else []
         return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
