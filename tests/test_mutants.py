@@ -45,6 +45,12 @@ def test_every_module_of_the_core_is_guarded(room: str) -> None:
             assert guarding(path), f"name {path} in the GUARDS of the test files that should notice what breaks in it"
 
 
+def test_the_guards_that_name_a_module_most_closely_are_run_first() -> None:
+    order = guarding(PACKAGE / "matching" / "partial" / "beam_search.py").split()
+    assert order[0] == "test_parts_beam_search"
+    assert order.index("test_parts_alternatives") < order.index("test_symmetries")
+
+
 def test_the_core_of_the_makefile_are_test_files() -> None:
     """A file that was renamed would be missing only after the suite, in ``make shake``."""
     tests = Path(__file__).parent

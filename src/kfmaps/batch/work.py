@@ -107,7 +107,7 @@ def map_path(folder: Path, key: str) -> Path:
 
 
 def begin(folder: Path, key: str) -> int:
-    """Note that work on ``key`` begins, in a small file of its own that outlives a kill; which attempt it is."""
+    """Note that work on ``key`` begins, in a small file that outlives a kill, and return which attempt it is."""
     content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": now()})
     (folder / _ATTEMPTS).mkdir(parents=True, exist_ok=True)
     while True:

@@ -98,7 +98,7 @@ def _match_wholes(
 
 
 def _part_suspected(task: MatchTask) -> PartDetection:
-    """Which shape is a part: as asked for, which nothing puts in question, or as the boundaries tell."""
+    """Return which shape is a part: the one that was asked for, whatever the boundaries tell, or what they tell."""
     asked, shapes = task.config.partial.part, task.shapes("preserving")
     if asked != "auto":
         return PartDetection(asked, "" if asked == "none" else "as asked for", np.inf)
