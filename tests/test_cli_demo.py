@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import json
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from matplotlib.image import imread
+from rich.console import Console
 
 from commandline import run
-from kfmaps.cli.commands.demo import _SHAPES
+from kfmaps.cli.commands.demo import _SHAPES, _table
 from kfmaps.config import Config, Search
 from kfmaps.io import read_landmarks, read_mesh, read_vertex_numbers
 
@@ -42,6 +44,21 @@ def test_numbers(folder: Path) -> None:
     assert kernel["raw_error"] < 0.06
     assert "NO17" in plain["method"]
     assert 0 < plain["raw_error"] < 1
+
+
+def test_table_for_people(folder: Path) -> None:
+    """A row for each method, with its errors in per cent."""
+    told = json.loads((folder / "told.json").read_text())
+    sizes = {name: told[name] for name in ("source_vertices", "target_vertices")}
+    console = Console(width=200, file=io.StringIO())
+    console.print(_table(told["shape"], sizes, told["methods"]))
+    shown = console.file.getvalue()
+    assert "two poses: 1,500 and 1,200 vertices" in shown
+    rows = [line for line in shown.splitlines() if "landmarks " in line]
+    for line, row in zip(rows, told["methods"], strict=True):
+        assert row["method"] in line
+        for error in filter(None, (row["error"], row["raw_error"])):  # a search has no fit alone
+            assert f"{100 * error:.2f}" in line
 
 
 def test_picture(folder: Path) -> None:

@@ -71,6 +71,23 @@ def test_table_for_people(made: types.SimpleNamespace) -> None:
     assert "mirrored" not in shown
 
 
+def test_vertices_without_counterpart_are_in_no_mean(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """All wrong ones are left out: what remains is right, and how much remains is told."""
+    points = made.points.copy()
+    points[:50] = -1
+    save_map(tmp_path / "m.npz", Match(points))
+    words = ("evaluate", tmp_path / "m.npz", "--source", made.source, *truth(made))
+    told = json.loads(run(*words, "--json").stdout)
+    assert (told["mean"], told["exact"], told["matched"]) == (0.0, 1.0, pytest.approx(250 / 300))
+    shown = run(*words).stdout
+    assert "of the truth's points matched" in shown
+    assert "83.3 %" in shown
+    assert "source covered" in shown
+    save_map(tmp_path / "none.npz", Match(np.full(300, -1)))
+    words = ("evaluate", tmp_path / "none.npz", "--source", made.source, *truth(made))
+    assert "a counterpart for some of the truth's points" in run(*words).error
+
+
 def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
     """A map that is nearer to the swapped truth is said to be swapped."""
     rng = np.random.default_rng(0)

@@ -136,6 +136,29 @@ def test_orthogonal_agrees_with_procrustes(case):
     np.testing.assert_allclose(to_numpy(found.value), to_numpy(nearest_orthogonal(term.rhs())), atol=1e-6)
 
 
+class _Linear:
+    """An energy ``−⟨B, C⟩`` without a quadratic part, whose least orthonormal map is the polar factor of ``B``."""
+
+    def __init__(self, B):
+        self.B = B
+
+    def apply(self, C):
+        return 0.0 * C
+
+    def rhs(self):
+        return self.B
+
+
+@pytest.mark.parametrize("size", [(7, 5), (5, 7)], ids=str)
+def test_where_the_energy_bends_down_the_minimum_is_found_too(size):
+    """From starts where no step along the manifold has a model; orthonormal maps of other than square size connect."""
+    for seed in range(3):
+        B, start = np.random.default_rng(seed).normal(size=(2, *size))
+        found = minimize_orthogonal(_Linear(B), CG(rtol=1e-10, max_iter=500), start)  # type: ignore[arg-type]
+        assert found.status == "converged"
+        np.testing.assert_allclose(found.value, nearest_orthogonal(B), atol=1e-8)
+
+
 def test_tangent_is_a_projection(case):
     *_, E = case
     C, G = nearest_orthogonal(E.rhs()), E.apply(E.rhs()) + 1.0

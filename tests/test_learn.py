@@ -208,6 +208,16 @@ def test_the_rate_falls_to_zero(lessons):
     assert moved[True] < 0.3 * moved[False]
 
 
+def test_the_penalty_holds_parameters_near_their_start(lessons):
+    def moved(penalty):
+        model = Model(CONFIG, lessons, ["gamma"])
+        before = model.log_gamma.detach().clone()
+        made = learn(model, lessons, [], replace(QUICK, epochs=5, patience=9, rate=0.1, start_penalty=penalty))
+        return float((made.parameters["log_gamma"] - before).abs().max())
+
+    assert moved(1e4) < 0.5 * moved(0.0)
+
+
 def test_columns_of_every_kind():
     config = DescriptorConfig(n_spectral=20)
     found = _blocks(config, 3, 20 + 352)

@@ -1,5 +1,6 @@
 """Things carried over maps of parts in both directions: what has no counterpart gets nothing, all else its own."""
 
+import json
 import types
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +14,7 @@ from kfmaps.batch.page import summary_page
 from kfmaps.batch.results import Result
 from kfmaps.cli.partial_truth import PartTruth, _true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
-from kfmaps.geometry.mesh import surface_area
+from kfmaps.geometry.mesh import surface_area, vertex_areas
 from kfmaps.io import load_map, save_map, write_mesh
 from kfmaps.io.partial_map import find_counterparts
 from kfmaps.matching.result import Match
@@ -43,8 +44,59 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     save_map(folder / "up.npz", up)
     size = np.sqrt(surface_area(whole))
     return types.SimpleNamespace(
-        folder=folder, whole=whole, part=part, common=common, true=point_positions(place, whole), size=size
+        folder=folder, whole=whole, part=part, place=place, common=common, true=point_positions(place, whole), size=size
     )
+
+
+def lines(path: Path, rows: list[str]) -> Path:
+    path.write_text("".join(f"{row}\n" for row in rows), encoding="utf-8")
+    return path
+
+
+def test_a_true_map_of_a_part_is_told_to_be_one(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """With the truth as triangles and weights, or as lines "whole part"; of the part as target and as source."""
+    rows = [f"{f + 1} {a} {b} {c}" for f, (a, b, c) in zip(made.place.faces, made.place.weights.tolist(), strict=True)]
+    dense = lines(tmp_path / "part.baryc_gt", rows)
+
+    def told(map: str, *words: object) -> dict:
+        ran = run("evaluate", made.folder / map, "--truth-part", *words, "--json")
+        assert (ran.status, ran.stderr) == (0, "")
+        return json.loads(ran.stdout)
+
+    areas = vertex_areas(made.whole)
+    down = told("down.npz", dense)
+    assert down["mean"] < 1e-6
+    assert (down["matched"], down["overlap"], down["points"]) == (1.0, 1.0, len(made.part.vertices))
+    assert down["missing"] == pytest.approx(1 - areas[made.common].sum() / areas.sum())
+    up = told("up.npz", dense, "--part", "source")
+    assert up["mean"] < NEAR
+    assert up["matched"] > 0.95
+    assert up["overlap"] > 0.95
+    assert up["missing"] == down["missing"]
+    corners = made.whole.faces[made.place.faces, made.place.weights.argmax(axis=1)]
+    some = np.arange(0, len(corners), 7)
+    listed = lines(tmp_path / "pairs.txt", [f"{corners[v]} {v}" for v in some])
+    few = told("down.npz", listed)
+    assert few["points"] == len(some)
+    assert 0 < few["mean"] < 2 * NEAR
+    shown = run("evaluate", made.folder / "down.npz", "--truth-part", dense).stdout
+    for text in ("of the truth's points matched", "100.0 %", "overlap, intersection over union", "missing of the"):
+        assert text in shown
+
+
+def test_a_truth_that_is_none_of_this_part_is_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    n = len(made.part.vertices)
+    good = ["1 1 0 0"] * n
+    for rows, name, more, words in (
+        (good[1:], "a.baryc_gt", (), f"{n} lines, one per vertex of the part"),
+        (["1 1 1 1", *good[1:]], "b.baryc_gt", (), "three weights of sum 1"),
+        (["999999 1 0 0", *good[1:]], "c.baryc_gt", (), "999998"),
+        ([f"0 {n}"], "d.txt", (), f"vertices of the part from 0 to {n - 1}"),
+        (good, "e.baryc_gt", ("--part", "head"), "source or target"),
+        (good, "f.baryc_gt", ("--identity",), "one truth"),
+    ):
+        file = lines(tmp_path / name, rows)
+        assert words in run("evaluate", made.folder / "down.npz", "--truth-part", file, *more).error
 
 
 def test_values_of_a_part_come_back_to_what_both_have(made: types.SimpleNamespace, tmp_path: Path) -> None:

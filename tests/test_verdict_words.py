@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from kfmaps.cli.evaluation import Truth, assess
 from kfmaps.cli.summary import table
 from kfmaps.cli.words import VERDICTS, probability_text, verdict_text
 from kfmaps.datasets import sphere
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchRegistration, MatchScore
+from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
 from kfmaps.registration.accept import RegistrationReport
 from kfmaps.viz.page import verdict_record
 
@@ -68,3 +69,23 @@ def test_the_summary_says_what_part_the_kernel_had() -> None:
     told = _summary(replace(once, fit=fitted))
     assert told["fit"] == "Gaussian(gamma=0.1235), 30 features; converged in 7 steps"
     assert "kernel" not in told
+
+
+def test_the_summary_says_what_is_odd() -> None:
+    """One row each, and none of them where nothing is odd."""
+    match = _match()
+    n = len(match.target_to_source)
+    usual = _summary(match)
+    assert usual.keys() == {"matched", "verdict", "time"}
+    poor = np.where(match.target.vertices[:, 1] > 0, 0.1, 1.0)  # half of the sphere
+    share = float(_summary(replace(match, local_confidence=poor))["doubtful"].split("%")[0].split()[-1])
+    assert 48 < share < 52
+    assert "doubtful" not in _summary(replace(match, local_confidence=poor, verdict="ambiguous"))
+    assert "mirror image" in _summary(replace(match, orientation="reversing"))["orientation"]
+    lost = np.where(np.arange(n) < 1200, -1, match.target_to_source)
+    assert _summary(replace(match, target_to_source=lost))["no counterpart"].startswith("1,200 of the target's 1,500")
+    part = MatchPart(reason="the target is a part, 40% of the other's area", suspected=True)
+    assert _summary(replace(match, partial=part))["parts"] == part.reason
+    accuracy = assess(match.source, match.target_to_source, Truth(np.arange(n), np.arange(n)))
+    names, values = (list(column.cells) for column in table(match, accuracy).columns)
+    assert str(values[names.index("error")]).startswith("mean 0.00, median 0.00, worst 0.00 % of √area; area under")
