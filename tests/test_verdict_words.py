@@ -7,7 +7,8 @@ import numpy as np
 
 from kfmaps.cli.evaluation import Truth, assess
 from kfmaps.cli.summary import table
-from kfmaps.cli.words import VERDICTS, probability_text, verdict_text
+from kfmaps.cli.words import VERDICTS, plural, probability_text, verdict_text
+from kfmaps.collection.repair import CyclePath, MapEvidence, Replacement
 from kfmaps.datasets import sphere
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
@@ -89,3 +90,19 @@ def test_the_summary_says_what_is_odd() -> None:
     accuracy = assess(match.source, match.target_to_source, Truth(np.arange(n), np.arange(n)))
     names, values = (list(column.cells) for column in table(match, accuracy).columns)
     assert str(values[names.index("error")]).startswith("mean 0.00, median 0.00, worst 0.00 % of √area; area under")
+
+
+def test_one_of_a_kind_is_no_plural() -> None:
+    assert [plural(n, "pair") for n in (0, 1, 2)] == ["0 pairs", "1 pair", "2 pairs"]
+
+
+def test_a_long_composition_names_few_shapes() -> None:
+    names, evidence = [f"s{i}" for i in range(60)], MapEvidence(0.9, 20.0, 0.1)
+
+    def label(count: int) -> str:
+        path = CyclePath((), tuple(range(count)))
+        return Replacement(0, "composition", evidence, evidence, path=path).label(names)
+
+    assert label(2) == "composition through s0, s1"
+    assert label(48) == "composition through s0, s1, s2, s3, s4, 43 more"
+    assert Replacement(0, "alternative", evidence, evidence, 2).label(names) == "alternative 2"

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from kfmaps.batch.results import Result, describe_result
 from kfmaps.cli.terminal import Terminal
-from kfmaps.cli.words import format_seconds
+from kfmaps.cli.words import format_seconds, plural
 
 _LOG, _EVENTS = "run.log", "run.jsonl"
 _FIXED_VERTICES = 8000.0
@@ -51,9 +51,8 @@ class RunStatus:
             return "finished"
         if self.remaining is None:
             return "time left: not known yet"
-        pairs = "1 pair" if self.measured == 1 else f"{self.measured} pairs"
-        workers = "1 worker" if self.workers == 1 else f"{self.workers} workers"
-        return f"about {format_seconds(self.remaining)} left (from {pairs} and their sizes, {workers})"
+        rests_on = f"{plural(self.measured, 'pair')} and their sizes, {plural(self.workers, 'worker')}"
+        return f"about {format_seconds(self.remaining)} left (from {rests_on})"
 
 
 Callback = Callable[[RunStatus, Result | None], None]

@@ -61,8 +61,8 @@ def write_shape_statistics(
     count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in found.limit_shapes)
     if count == 1:
         return []
-    line = f"no pair joins the {count} parts of the collection: {len(found.limit_shapes)} of them have a common basis"
-    return [line + " each" + (f"; {alone} shapes are in parts of fewer than three" if alone else "")]
+    line = f"no pair joins the {count} parts of the collection; {len(found.limit_shapes)} of them have a common basis"
+    return [line + " of their own" + (f"; {alone} shapes are in parts of fewer than three" if alone else "")]
 
 
 def _limit_shape_path(folder: Path, number: int) -> Path:

@@ -14,6 +14,11 @@ def percent(error: float | None, digits: int = 2) -> str:
     return "" if error is None else f"{100 * error:.{digits}f}"
 
 
+def plural(number: int, word: str) -> str:
+    """Return how many there are of something: "1 pair", "12 pairs"."""
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"
+
+
 def probability_text(probability: float) -> str:
     """Return a probability as people read it: "97 %", ">99 %", "<1 %"."""
     if probability > 0.99:

@@ -20,6 +20,7 @@ from kfmaps.collection.sync_init import MAX_LOG_ODDS
 from kfmaps.collection.synchronization import N_FUNCTIONS, OUTLIER_FACTOR, Edge, SyncResult, map_residuals, synchronize
 from kfmaps.matching.score import SCORE
 
+_NAMED = 5  # shapes of a composition that its label names
 _DOUBT = 0.5  # probability of the map in use below which a composition is sought
 
 
@@ -68,7 +69,9 @@ class Replacement:
     def label(self, names: Sequence[str]) -> str:
         """Return what the map was replaced by, in words; empty where it stays."""
         if self.path is not None:
-            return f"composition through {', '.join(names[i] for i in self.path.through)}"
+            through = [names[i] for i in self.path.through]
+            more = [f"{len(through) - _NAMED} more"] if len(through) > _NAMED else []
+            return f"composition through {', '.join([*through[:_NAMED], *more])}"
         return f"alternative {self.candidate}" if self.kind == "alternative" else ""
 
     def reason(self) -> str:

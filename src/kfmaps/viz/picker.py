@@ -10,6 +10,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps._records import JsonObject
+from kfmaps.cli.words import plural
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, save_map, write_landmarks
@@ -125,7 +126,7 @@ class PickerServer:
         found = matcher(pairs, progress)
         points = check_map(found, len(source.vertices), len(target.vertices), lost=True)
         self._maps.append(found)
-        label = f"{len(pairs)} landmark" + ("" if len(pairs) == 1 else "s")
+        label = plural(len(pairs), "landmark")
         confidence = encode_floats(local_confidence(source, target, points))
         told = {"verdict": found.verdict, "confidence": found.confidence, "landmarks": len(pairs)}
         return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict_record(told)}

@@ -38,6 +38,7 @@ from kfmaps.batch.transfer_landmarks import (
 from kfmaps.cli.commands.batch import FAILED, INTERRUPTED, describe_plan, parse_workers
 from kfmaps.cli.options import Json, Quiet, Workers
 from kfmaps.cli.terminal import print_json
+from kfmaps.cli.words import plural
 from kfmaps.config import Config
 from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.settings.options import Chosen, with_settings
@@ -133,14 +134,14 @@ def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Temp
     """What came of a study, in a few lines."""
     carried = [one for one in study if one.verdict and not one.misfit]
     names = templates[0].points.names
-    told = f"{len(names)} landmarks of {_count(len(templates), 'specimen')} carried to {_count(len(carried), 'other')}"
+    told = f"{len(names)} landmarks of {plural(len(templates), 'specimen')} carried to {plural(len(carried), 'other')}"
     if carried:
         sure = np.concatenate([one.points.confidence for one in carried])
         told += f", median confidence {np.nanmedian(sure):.2f}" if np.isfinite(sure).any() else ""
     lines = [told]
     flagged = Counter((name, flag) for one in carried for name, flag in zip(names, one.open_flags, strict=True) if flag)
     if flagged:
-        told = [f"{name} in {_count(count, 'specimen')} ({flag})" for (name, flag), count in flagged.most_common(SHOWN)]
+        told = [f"{name} in {plural(count, 'specimen')} ({flag})" for (name, flag), count in flagged.most_common(SHOWN)]
         told += [f"{len(flagged) - SHOWN} other landmarks"] if len(flagged) > SHOWN else []
         lines.append(f"{flagged.total()} of {len(names) * len(carried)} flagged: {'; '.join(told)}")
     elif carried:
@@ -165,7 +166,3 @@ def _misfits(study: Sequence[SpecimenLandmarks], keep: Sequence[str]) -> list[st
         + ("kept" if one.specimen in keep else f"left out (--keep {one.specimen} keeps it)")
         for one in study
     ]
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"

@@ -19,7 +19,7 @@ from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
 from kfmaps.cli.terminal import print_json
-from kfmaps.cli.words import UNIT, percent
+from kfmaps.cli.words import UNIT, percent, plural
 from kfmaps.config import Config
 from kfmaps.io.atomic import write_text
 from kfmaps.settings.options import Chosen, with_settings
@@ -52,7 +52,7 @@ def batch(
     landmarks: Annotated[
         str | None,
         typer.Option(
-            help="Landmarks: these lines of the truth, counted from 1; or none. Default: those that the folder has.",
+            help="Landmarks: these lines of the truth, plural from 1; or none. Default: those that the folder has.",
             metavar="201,1121,...|none",
         ),
     ] = None,
@@ -129,7 +129,7 @@ def describe_plan(plan: Plan) -> str:
     """Return what there is to do."""
     count = len(plan.tasks)
     shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
-    parts = [f"{count} pair{'' if count == 1 else 's'} of {shapes} shapes"]
+    parts = [f"{plural(count, 'pair')} of {shapes} shapes"]
     parts += [f"{len(plan.results)} done already"] if plan.results else []
     parts += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
     return ", ".join(parts)
@@ -141,13 +141,12 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
     lines = []
     if outcome.interrupted:
         left = len(plan.tasks) - len(outcome.results)
-        lines.append(f"interrupted with {left} pairs left; the same command goes on")
+        lines.append(f"interrupted with {plural(left, 'pair')} left; the same command goes on")
     if numbers.failed:
-        pairs = "1 pair" if numbers.failed == 1 else f"{numbers.failed} pairs"
-        lines.append(f"{pairs} failed; the summary says why, and --retry-failed tries again")
+        lines.append(f"{plural(numbers.failed, 'pair')} failed; the summary says why, and --retry-failed tries again")
     if numbers.error_mean is not None:
         lines.append(
-            f"mean error {percent(numbers.error_mean)} {UNIT} over {numbers.evaluated} pairs"
+            f"mean error {percent(numbers.error_mean)} {UNIT} over {plural(numbers.evaluated, 'pair')}"
             f" (median pair {percent(numbers.error_median)}, worst {percent(numbers.error_worst)})"
         )
     verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
@@ -158,9 +157,9 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
 
 def _describe_consistent(found: ConsistentResult) -> list[str]:
     """Which maps were replaced, by what and why."""
-    maps = "1 map" if found.replaced == 1 else f"{found.replaced} maps"
-    lines = [f"{maps} replaced, since others contradict them" if found.replaced else "all maps agree: none replaced"]
-    lines = lines if found.replaced or not found.doubted else ["no map replaced"]
+    lines = ["no map replaced" if found.doubted else "all maps agree: none replaced"]
+    if found.replaced:
+        lines = [f"{plural(found.replaced, 'map')} replaced that others contradict"]
     for r in found.results:
         if r.changed:
             errors = (
