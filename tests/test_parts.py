@@ -12,15 +12,16 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.cli.partial_truth import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
+from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
-from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area
 from kfmaps.io import load_map
 from kfmaps.matching import match as matching
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
-from kfmaps.matching.partial.place_part import _same_units
+from kfmaps.matching.partial.place_part import _same_units, place_part
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
     Assignment,
@@ -282,6 +283,30 @@ def test_a_part_is_placed_in_units_of_the_whole(monkeypatch, which):
         with pytest.raises(InvalidInput, match="enough"):
             match_partial(*shapes, SMALL, which)
     assert seen == pytest.approx([1 / 3, 3] if which == "source" else [3, 1 / 3])
+
+
+@pytest.mark.parametrize("scale", ["fixed", "free"])
+def test_two_parts_are_placed_by_coarse_copies_and_their_landmarks(pair, monkeypatch, scale):
+    """The whole lacks one end, the part the other; copies of few vertices are placed, then both in full are bent."""
+    monkeypatch.setattr("kfmaps.matching.partial.place_part._PROXY_FROM", 600)
+    monkeypatch.setattr("kfmaps.matching.partial.place_part._PROXY_VERTICES", 500)
+    height = pair.source.vertices @ [0.35, 1.0, 0.2]
+    whole, kept = largest_piece(pair.source, height <= np.quantile(height, 0.9))
+    new = np.full(len(pair.source.vertices), -1)
+    new[kept] = np.arange(len(kept))
+    true = new[pair.truth]
+    known = np.flatnonzero(true >= 0)
+    rows = known[np.linspace(0, len(known) - 1, 4).astype(int)]
+    sizes = [np.sqrt(surface_area(mesh)) for mesh in (pair.target, whole)]
+    config = replace(SMALL, partial=Partial("both", scale, samples=100, whole_samples=300))
+    meshes = unit_area(pair.target), unit_area(whole)
+    marks, ratio = np.stack([rows, true[rows]], axis=1), float(sizes[0] / sizes[1])
+    found = place_part(*meshes, config, ratio=ratio, landmarks=marks, both_partial=True)
+    off = np.linalg.norm(found.registration.vertices - meshes[1].vertices[true], axis=1)
+    assert off[known].mean() < 0.06
+    assert found.registration.scale == pytest.approx(ratio, rel=1e-9 if scale == "fixed" else 0.1)
+    ours = found.overlap.part > 0.5
+    assert (ours & (true >= 0)).sum() / (ours | (true >= 0)).sum() > 0.8
 
 
 @pytest.mark.parametrize(("which", "word"), [("target", "unlikely"), ("both", "likely")])
