@@ -12,6 +12,8 @@ import pytest
 
 from collecting import CONFIG
 from conftest import blob
+from kfmaps.batch.progress import RunReport, RunStatus
+from kfmaps.batch.results import Result
 from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, _seconds_left, standing
 from kfmaps.shape import prepare
 
@@ -54,6 +56,38 @@ def test_a_long_stage_is_told_of_without_a_terminal(
     lines.close()
     assert said.splitlines()[1] == "eigenfunctions of source: 40.00 s"
     assert len(said.splitlines()) == 3
+
+
+def test_a_terminal_has_a_bar_for_each_stage(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Names of shapes are shown as they are, and the bars' own control sequences reach the terminal."""
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    with Stages() as stages:
+        for done in (0.0, 0.5, 1.0, 0.0, 1.0):
+            stages("SHOT of a[b]\x07", done)
+    told = capsys.readouterr().err
+    assert "SHOT of a[b]" in told
+    assert "\x1b[" in told
+    assert "\x07" not in told
+    assert "\\x1b" not in told
+
+
+def test_a_collection_on_a_terminal_has_bars_and_tells_failures_above_them(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", "150")
+    failed = Result("a", "b", "failed", "", "", reason="no triangles")
+    with RunReport(quiet=False) as report:
+        report.stage("likeness of shapes", 2, 2)
+        report.status(RunStatus(2, 2, 1, 1, 3, 1, 40.0, 1), failed)
+        report.status(RunStatus(2, 2, 3, 1, 3, 1, 0.0, 3), None)
+    told = capsys.readouterr().out
+    assert "failed: a → b: no triangles" in told
+    for text in ("likeness of shapes", "2/2", "pairs", "3/3", "1 failed, finished"):
+        assert text in told, text
+    assert "3/3 (1 failed)" not in told  # that is for files, which have no bars
 
 
 def test_nothing_is_said_when_all_is_quiet(capsys: pytest.CaptureFixture[str]) -> None:
