@@ -655,11 +655,17 @@ MUTANTS = tuple(
             "test_automatic -k its_definition_says",
         ),
         (
-            "states = [new, score_registered(old, setting.proxies)]",
-            "states = [new]",
+            "states += [old, other]",
+            "states += [other]",
             "test_alternating_registration -k astray",
         ),
-        ("*([] if other is None else [other])]", "]", "test_alternating_registration -k astray"),
+        ("if c is not None and _quality(c) >= least]", "if c is not None]", "test_alternating_registration -k lags"),
+        (
+            "deformation_energy=energy, strain=strain",
+            "deformation_energy=0.01, strain=strain",
+            "test_alternating_registration -k lags",
+        ),
+        ("order[0].score > least", "True", "test_registration_evidence -k asked_for"),
         (
             "differs = -numbers.w_shot",
             "differs = numbers.w_shot",

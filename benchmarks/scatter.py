@@ -99,7 +99,7 @@ def registered(found: SearchResult) -> SearchResult:
         return found
     shapes = state.source, state.copies.image
     pair = registration_pair(*shapes, state.copies.coarse.copies, found.landmarks)
-    one = register_map_on_proxies(found.functional_map, pair, matching._search_guidance(found, shapes))
+    *_, one = register_map_on_proxies(found.functional_map, pair, matching._search_guidance(found, shapes))
     if one is None:
         return found
     C, vertices = one.functional_map, one.registered_vertices

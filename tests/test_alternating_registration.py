@@ -63,6 +63,11 @@ def both(source, target) -> RegistrationPair:
     return registration_pair(source, target, (a, b))
 
 
+def ended(*what) -> alternate.AlternatingResult:
+    *_, last = alternating_registration(*what)
+    return last
+
+
 def points_of(C, source, target):
     k_t, k_s = C.shape
     images = source.basis.functions[:, :k_s] @ C.T
@@ -80,7 +85,7 @@ def test_a_torn_map_is_mended(creatures):
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
     C = to_functional(torn, source.basis.truncate(40), target.basis.truncate(40))
-    found = alternating_registration(C, both(source, target), None)
+    found = ended(C, both(source, target), None)
     assert error(found.functional_map, source, target, truth) < 0.7 * error(C, source, target, truth)
     assert found.registered_vertices.shape == source.mesh.vertices.shape
 
@@ -88,7 +93,7 @@ def test_a_torn_map_is_mended(creatures):
 def test_bent_vertices_lie_where_the_truth_says(creatures):
     source, target, truth = creatures
     C = to_functional(truth, source.basis.truncate(60), target.basis.truncate(60))
-    bent = alternating_registration(C, both(source, target), None).registered_vertices
+    bent = ended(C, both(source, target), None).registered_vertices
     off = np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1)
     assert off.mean() < 0.04
 
@@ -96,12 +101,12 @@ def test_bent_vertices_lie_where_the_truth_says(creatures):
 def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, monkeypatch):
     source, target, truth = creatures
     C = to_functional(truth, source.basis.truncate(40), target.basis.truncate(40))
-    told = []
-    first = alternating_registration(C, both(source, target), None, told.append).functional_map
-    assert told == [(i + 1) / alternate._ROUNDS for i in range(alternate._ROUNDS)]
+    rounds = [one.functional_map for one in alternating_registration(C, both(source, target), None)]
+    assert len(rounds) == alternate._ROUNDS
+    assert not np.array_equal(rounds[0], rounds[-1])
     monkeypatch.setattr(alternate, "WEIGHT", 0.0)
-    without = alternating_registration(C, both(source, target), None).functional_map
-    assert error(first, source, target, truth) < error(without, source, target, truth)
+    without = ended(C, both(source, target), None).functional_map
+    assert error(rounds[-1], source, target, truth) < error(without, source, target, truth)
 
 
 def test_positions_are_spread_smoothly(creatures):
@@ -166,9 +171,7 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
         lambda *what: told.append(what),
     )
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
-    once = [*(0.9 * (i + 1) / alternate._ROUNDS for i in range(alternate._ROUNDS)), 1.0]
-    shares = [done for _, done in told]
-    assert shares == pytest.approx([0.0, *once])
+    assert [done for _, done in told] == [0.0, 0.5, 1.0]
 
 
 def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, monkeypatch):
@@ -179,11 +182,11 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
     calls, apart = [], []
 
-    def made(C, on, led, _report):
+    def made(C, on, led):
         calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T)))
         if (on.source is target) in apart:
             raise NotConverged("it fell apart")
-        return alternate.AlternatingResult(C, on.source.mesh.vertices)
+        yield alternate.AlternatingResult(C, on.source.mesh.vertices)
 
     def end():
         found, retries = refine_by_registration(
@@ -228,12 +231,12 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
         asked.append(f"{pairing}")
         return vertices_of_match(pairing, *rest)
 
-    def made(C, on, led, _report):
+    def made(C, on, led):
         calls.append(led.source.shape[1])
         begun.append(C)
         if len(calls) == 5:
             raise NotConverged("it fell apart")
-        return alternate.AlternatingResult(C, on.source.mesh.vertices)
+        yield alternate.AlternatingResult(C, on.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "vertices_of_match", tips_of)
@@ -251,6 +254,47 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
         c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)[0]
     }
     assert len(calls) == 5
+
+
+def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
+    """It stays a rival that is bent as badly as the worst; what was good before its first round is not given up."""
+    source, target, truth = creatures
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
+    good, bad = score_maps([("", True)] * 2, np.stack([C, turned]), None, on, 1)
+    gap, rounds = good.quality.score - bad.quality.score, []
+
+    def made(C, where, _led):
+        for i in range(2):
+            rounds.append(
+                (where.source is target, np.array_equal(C, turned.T if where.source is target else turned), i)
+            )
+            yield alternate.AlternatingResult(C, where.source.mesh.vertices)
+
+    def repaired(*begun, lag):
+        """What repairs that change nothing leave of some maps, when they lag by so much."""
+        rounds.clear()
+        monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=lag, repairable_margin=np.inf))
+        ranked = [replace(c, name=f"{i}", deformation_energy=1.0) for i, c in enumerate(begun)]
+        return refine_by_registration(
+            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1
+        )[0]
+
+    monkeypatch.setattr(mending, "alternating_registration", made)
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
+    assert [c.name for c in repaired(good, bad, lag=gap + 0.01)] == ["0", "1"]
+    assert rounds.count((True, True, 1)) == 1
+    first, second = repaired(good, bad, lag=gap - 0.01)
+    assert (first.name, second.name) == ("0", "1")
+    assert (True, True, 0) in rounds
+    assert (True, True, 1) not in rounds
+    assert second.deformation_energy == first.deformation_energy  # the worst of one
+    assert second.score < first.score - 1
+    # What was as good before is not given up.
+    repaired(good, replace(bad, quality=good.quality), lag=gap - 0.01)
+    assert (True, True, 1) in rounds
+    assert (False, True, 1) in rounds
 
 
 def test_pairings_are_heard_once():
@@ -283,7 +327,7 @@ def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     astray = alternate.AlternatingResult(
         np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices
     )
-    monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: astray)
+    monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: iter([astray]))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     nowhere = np.zeros((0, 2), dtype=np.int64)
     (found,), retries = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
@@ -309,7 +353,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     astray = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
 
     def made(_C, where, *_rest):
-        return alternate.AlternatingResult(astray if where.source is target else C, where.source.mesh.vertices)
+        yield alternate.AlternatingResult(astray if where.source is target else C, where.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
@@ -498,13 +542,13 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
     asked = []
     usual = mending.alternating_registration
 
-    def told(C, pair, guidance, progress):
+    def told(C, pair, guidance):
         asked.append((pair.source, guidance.source, guidance.target))
-        return usual(C, pair, guidance, progress)
+        return usual(C, pair, guidance)
 
     monkeypatch.setattr(mending, "alternating_registration", told)
     for swapped, moved, other in ((True, target, source), (False, source, target)):
-        found = mending.register_map_on_proxies(C, pair, led, swapped)
+        *_, found = mending.register_map_on_proxies(C, pair, led, swapped)
         assert found is not None
         assert error(found.functional_map, source, target, truth) < 0.05
         assert found.registered_vertices.shape == moved.mesh.vertices.shape
@@ -514,10 +558,11 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
         assert theirs is other.mesh.vertices
 
     def falls_apart(*_what):
+        yield alternate.AlternatingResult(C, source.mesh.vertices)
         raise NotConverged("it fell apart")
 
     monkeypatch.setattr(mending, "alternating_registration", falls_apart)
-    assert mending.register_map_on_proxies(C, pair, led) is None
+    assert [one is None for one in mending.register_map_on_proxies(C, pair, led)] == [False, True]
 
 
 def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_images(creatures, monkeypatch):
@@ -550,7 +595,7 @@ def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_image
         ranked = choose._rank(replace(torn_first, found=found[:1])).ranked
         assert (ranked[0].score > found[0].score) == unduly
     assert compared == [False, True]
-    monkeypatch.setattr(choose, "register_map_on_proxies", lambda *_what: None)
+    monkeypatch.setattr(choose, "register_map_on_proxies", lambda *_what: iter([None]))
     assert choose._repair_best(torn_first) is torn_first
     flat = replace(torn_first, copies=ProxyCache(source, target, (None, None)))
     assert choose._repair_best(flat) is flat

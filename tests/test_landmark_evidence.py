@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -234,7 +235,8 @@ def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None
     led = replace(on, landmarks=registration_pair(source, target, (a, b), at).landmarks)
     off = []
     for where in (on, led):
-        bent = alternating_registration(slid, where, None).registered_vertices
+        *_, made = alternating_registration(slid, where, None)
+        bent = made.registered_vertices
         off.append(np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1))
     assert off[1][rows].mean() < 0.6 * off[0][rows].mean()
     assert off[1].mean() < off[0].mean()
@@ -325,9 +327,9 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
         leads.append((what[2], what[5]))
         return usual(*what)
 
-    def made(C: np.ndarray, where: Any, *_rest: Any) -> AlternatingResult:
+    def made(C: np.ndarray, where: Any, *_rest: Any) -> Iterator[AlternatingResult]:
         begun.append([c.vertices[i] for c, i in zip(where.copies, where.landmarks.T, strict=True)])
-        return AlternatingResult(C, where.source.mesh.vertices)
+        yield AlternatingResult(C, where.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "build_guidance", lead)
     monkeypatch.setattr(mending, "alternating_registration", made)

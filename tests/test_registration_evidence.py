@@ -164,7 +164,7 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
     assert [c.name for c in ranked] == ["bad", "truth"]
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
-    monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: replace(made, functional_map=C))
+    monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
     monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])
     monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
@@ -250,8 +250,13 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
     for margin, wanted in ((SCORE.shot_margin + 0.2, 0), (SCORE.shot_margin - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
-        ranking.ranking([one, other], on, ProxyCache.of(source, target, on), 1)
+        maps, copies = [one, other], ProxyCache.of(source, target, on)
+        first = ranking.ranking(maps, on, copies, 1)[0].score
         assert len(asked) == wanted
+        ranking.ranking(maps, on, copies, 1, least=first)
+        assert len(asked) == wanted  # not where the first would have to be better
+        ranking.ranking(maps, on, copies, 1, least=first - 0.1)
+        assert len(asked) == 2 * wanted
 
 
 def test_what_is_far_behind_is_not_looked_at(creatures):

@@ -172,7 +172,7 @@ def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> Descri
     meshes = [shape.mesh for shape in shapes]
     extremities = found.extremities and found.extremities.guide(meshes[0], meshes[1])
     lead = LANDMARK_WEIGHT if near_isometric(found) else LANDMARK_WEIGHT_UNLIKE
-    guidance = build_guidance(*shapes, found.landmarks, extremities, lead=lead)
+    guidance = build_guidance(*shapes, found.landmarks, extremities, found.shot_guidance, lead=lead)
     if found.registered_vertices is None:
         return guidance
     moved = 1 if found.swapped else 0

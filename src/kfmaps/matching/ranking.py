@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from kfmaps._threads import parallel
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.matching.candidates import by_score, distinct_maps, map_distance
 from kfmaps.matching.quality import ShapeSamples
@@ -63,6 +64,11 @@ class ProxyCache:
         return mirror_image(self.target) if self.mirrored else self.target
 
     @cached_property
+    def shot_guidance(self) -> DescriptorGuidance | None:
+        """Guidance by SHOT on all vertices; ``None`` without SHOT."""
+        return descriptor_guidance(self.source.shot, self.image.shot)
+
+    @cached_property
     def coarse(self) -> ProxyPair | None:
         """The coarse ones."""
         a, b = self.copies
@@ -78,9 +84,16 @@ class ProxyCache:
 
 
 def ranking(
-    found: list[Candidate], samples: SamplePair, copies: ProxyCache, threads: int | None = None
+    found: list[Candidate],
+    samples: SamplePair,
+    copies: ProxyCache,
+    threads: int | None = None,
+    least: float = -np.inf,
 ) -> list[Candidate]:
-    """Return the distinct ones of ``found``, best first; the first few are judged by the deformation energy too."""
+    """Return the distinct ones of ``found``, best first; the first few also by how far the source must bend.
+
+    Of the first two, where they are close and the score of the first is above ``least``, how they look then counts too.
+    """
     ranked = distinct(found, samples.source)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - SCORE.max_behind]
     tried = with_bending(near, copies, threads)
@@ -89,7 +102,7 @@ def ranking(
     # As bad as the worst, so that none that was not tried comes first.
     worst = max(c.deformation_energy for c in tried if c.deformation_energy is not None)
     order = in_order([*tried, *(replace(c, deformation_energy=worst) for c in ranked[len(near) :])])
-    if len(near) > 1 and order[0].score - order[1].score < SCORE.shot_margin:
+    if len(near) > 1 and order[0].score - order[1].score < SCORE.shot_margin and order[0].score > least:
         return rerank_close(order, copies, threads)
     return order
 

@@ -6,7 +6,7 @@ each begins, what of it counts, and which comes first then.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -14,9 +14,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from kfmaps._arrays import NotConverged
-from kfmaps._progress import Done, Progress
+from kfmaps._progress import Progress
 from kfmaps._threads import parallel
-from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.matching.candidates import FINE, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
@@ -76,8 +76,11 @@ class SwappedRepair:
 
     def make(self) -> Candidate | None:
         """Return the repaired candidate; ``None`` where the registration falls apart."""
-        made = _repair(self.setting, self.candidate, self.extremities, swapped=False)
-        return made and normalize_errors(_with_shot_error(self.setting, made), self.reference)
+        *_, made = _repair_rounds(self.setting, self.candidate, self.extremities, swapped=False)
+        if made is None:
+            return None
+        made = _with_shot_error(self.setting, score_registered(made, self.setting.proxies))
+        return normalize_errors(made, self.reference)
 
 
 def refine_by_registration(
@@ -103,10 +106,11 @@ def refine_by_registration(
         return ranked, ()
     source, target = copies.source, copies.image
     pair = registration_pair(source, target, finer.copies, landmarks, (finer.forth, finer.back))
-    shot, graphs = descriptor_guidance(source.shot, target.shot), [geodesic_graph(s.mesh, 1) for s in (source, target)]
-    setting = RepairSetting(source, target, pair, finer, samples, landmarks, shot, (graphs[0], graphs[1]))
+    graphs = geodesic_graph(source.mesh, 1), geodesic_graph(target.mesh, 1)
+    setting = RepairSetting(source, target, pair, finer, samples, landmarks, copies.shot_guidance, graphs)
     near, rest = repairable(ranked, samples.source)
     begun = _begin(near, samples)
+    rounds = [_repair_rounds(setting, *one) for one in begun]
     done = np.zeros(len(begun))
 
     def report(i: int, part: float) -> None:
@@ -114,53 +118,65 @@ def refine_by_registration(
         if progress is not None:
             progress("bent and matched in turn", float(done.mean()))
 
-    def repair_one(i: int) -> Candidate | None:
-        return _best_repair(setting, *begun[i], begun=i < len(near), progress=partial(report, i))
+    def begin_one(i: int) -> Candidate | None:
+        made = next(rounds[i])
+        report(i, 0.5)
+        return made
+
+    def end_one(i: int) -> Candidate | None:
+        made = _best_repair(setting, *begun[i], [first[i], *rounds[i]][-1], i < len(near))
+        report(i, 1.0)
+        return made
 
     report(0, 0.0)
-    made = parallel(repair_one, range(len(begun)), threads)
-    which = [i for i, c in enumerate(made) if c is not None]
-    tried = compared([c for c in made if c is not None], partial(_with_shot_error, setting), threads)
-    least = reference_values(tried, min)
-    order = in_order([normalize_errors(c, least) for c in tried])
-    first = begun[which[next(i for i, c in enumerate(tried) if c.functional_map is order[0].functional_map)]]
+    first = parallel(begin_one, range(len(begun)), threads)
+    # After the first round the better of that and of what was a candidate before tells whether a second is worth it.
+    states = [[c for c in (*near[i : i + 1], made) if c is not None] for i, made in enumerate(first)]
+    better = [max(some, key=_quality, default=None) for some in states]
+    least = max(_quality(c) for c in better if c is not None) - SCORE.repair_lag
+    going = [i for i, c in enumerate(better) if c is not None and _quality(c) >= least]
+    done[[i for i in range(len(begun)) if i not in going]] = 1.0
+    ended = {i: c for i, c in zip(going, parallel(end_one, going, threads), strict=True) if c is not None}
+    tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
+    # Those that were given up count as bent as badly as the worst.
+    energy, (strain, shot_error) = max(c.deformation_energy or 0.0 for c in tried), reference_values(tried, max)
+    behind = {i: c for i, c in enumerate(better) if c is not None and i not in going}
+    given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
+    reference, every = reference_values(tried, min), [*tried, *given_up]
+    order = in_order([normalize_errors(c, reference) for c in every])
+    which = dict(zip((id(c.functional_map) for c in every), (*ended, *behind), strict=True))
     nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 3)[1:]  # two others that may turn out better
-    retries = (*nexts, SwappedRepair(setting, *first, least))
+    retries = (*nexts, SwappedRepair(setting, *begun[which[id(order[0].functional_map)]], reference))
     return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), retries
 
 
-def _repair(
-    setting: RepairSetting,
-    old: Candidate,
-    extremities: ExtremityVertices | None,
-    swapped: bool = True,
-    progress: Done = lambda _done: None,
-) -> Candidate | None:
-    """Register and refine one candidate in turn; ``swapped``: the target onto the source. ``None`` where it fails."""
+def _quality(one: Candidate) -> float:
+    return one.quality.score
+
+
+def _repair_rounds(
+    setting: RepairSetting, old: Candidate, extremities: ExtremityVertices | None, swapped: bool = True
+) -> Iterator[Candidate | None]:
+    """Register and refine a candidate in turn; yields what each round makes, ``None`` as the last where it fails.
+
+    ``swapped``: whether the target is registered onto the source.
+    """
     source, target = setting.source, setting.target
     limbs = extremities and extremities.guide(source.mesh, target.mesh, setting.graphs)
     guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
-    found = register_map_on_proxies(
-        old.functional_map, setting.pair, guidance, swapped, lambda part: progress(0.9 * part)
-    )
-    if found is None:
-        progress(1.0)
-        return None
-    C = found.functional_map[None, :FINE, :FINE]
-    new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1, [old.fit])[0]
-    new = score_registered(new, setting.proxies)
-    progress(1.0)
-    return replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
+    for found in register_map_on_proxies(old.functional_map, setting.pair, guidance, swapped):
+        if found is None:
+            yield None
+            return
+        C = found.functional_map[None, :FINE, :FINE]
+        new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1, [old.fit])[0]
+        yield replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
 
 
 def register_map_on_proxies(
-    C: np.ndarray,
-    pair: RegistrationPair,
-    guidance: DescriptorGuidance | None,
-    swapped: bool = True,
-    progress: Done | None = None,
-) -> AlternatingResult | None:
-    """Return :func:`alternating_registration` of a map, or ``None`` where a proxy falls apart.
+    C: np.ndarray, pair: RegistrationPair, guidance: DescriptorGuidance | None, swapped: bool = True
+) -> Iterator[AlternatingResult | None]:
+    """Yield the rounds of :func:`alternating_registration` of a map, ``None`` as the last where a proxy falls apart.
 
     ``C (k_t, k_s)``; ``guidance``: on all vertices; ``swapped``: whether the target is registered to the source: the
     vertices of the result are then the target's.
@@ -169,10 +185,10 @@ def register_map_on_proxies(
         C, pair = C.T, pair.swapped()
         guidance = guidance and guidance.swapped()
     try:
-        found = alternating_registration(C, pair, guidance, progress)
+        for found in alternating_registration(C, pair, guidance):
+            yield replace(found, functional_map=found.functional_map.T) if swapped else found
     except NotConverged:
-        return None
-    return replace(found, functional_map=found.functional_map.T) if swapped else found
+        yield None
 
 
 def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
@@ -191,20 +207,22 @@ def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, 
 
 
 def _best_repair(
-    setting: RepairSetting, old: Candidate, extremities: ExtremityVertices | None, begun: bool, progress: Done
+    setting: RepairSetting, old: Candidate, extremities: ExtremityVertices | None, new: Candidate | None, begun: bool
 ) -> Candidate | None:
-    """Return the repaired candidate, or the best of both directions and ``old`` where the first made it worse.
+    """Return the repaired candidate ``new``, or the best of both directions and ``old`` where that made it worse.
 
     Where a body touches itself the right map may go astray one way only. ``begun``: it was a candidate before.
     """
-    new = _repair(setting, old, extremities, progress=progress)
     if new is None:
         return old if begun else None
-    if not begun or new.quality.score >= old.quality.score:
-        return new
-    other = _repair(setting, old, extremities, swapped=False)
-    states = [new, score_registered(old, setting.proxies)]
-    return max([*states, *([] if other is None else [other])], key=lambda c: c.score)
+    states: list[Candidate | None] = [new]
+    if begun and _quality(new) < _quality(old):
+        *_, other = _repair_rounds(setting, old, extremities, swapped=False)
+        states += [old, other]
+    made = [c for c in states if c is not None]
+    least = max(map(_quality, made)) - SCORE.repair_lag
+    scored = [score_registered(c, setting.proxies) for c in made if _quality(c) >= least]
+    return max(scored, key=lambda c: c.score)
 
 
 def _with_shot_error(setting: RepairSetting, one: Candidate) -> Candidate:

@@ -190,6 +190,9 @@ class Scoring:
     repairable_margin: float = 6.0
     """Margin behind which a candidate is not repaired: repairs have gained up to 10, and decide between front and back
     (research/subtraction.md)."""
+    repair_lag: float = 1.5
+    """:attr:`Quality.score` behind the best after one round of repairs from which one is given up: to the end such end
+    4 or more behind (research/speed.md)."""
     hopeless_margin: float = 5.0
     """Margin behind which a repaired candidate loses whatever its SHOT error."""
     min_orientation: float = -0.2

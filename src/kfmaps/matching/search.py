@@ -22,6 +22,7 @@ from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
 from kfmaps.fmap.convert import to_points
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.fmap.refine import Refinement
 from kfmaps.fmap.zoomout import MAX_CANDIDATES, MAX_EXACT_PAIRS
 from kfmaps.geometry.basis import Basis
@@ -100,6 +101,11 @@ class SearchResult:
     # What may turn out better on all vertices; :func:`retry` makes a result of it.
     retries: tuple[Candidate | SwappedRepair, ...] = ()
     _search: _Search | None = None
+
+    @property
+    def shot_guidance(self) -> DescriptorGuidance | None:
+        """Guidance by SHOT on all vertices, where a search knows it."""
+        return self._search and self._search.copies.shot_guidance
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,10 +267,10 @@ def _repair_best(state: _Search) -> _Search:
     best, copies, samples = state.ranked[0], state.copies, state.samples.whole
     if copies.coarse is None:
         return state
-    guidance = build_guidance(state.source, copies.image, state.pairs)
+    guidance = build_guidance(state.source, copies.image, state.pairs, shot=copies.shot_guidance)
     coarse = copies.coarse
     pair = registration_pair(state.source, copies.image, coarse.copies, state.pairs, (coarse.forth, coarse.back))
-    one = register_map_on_proxies(best.functional_map, pair, guidance)
+    *_, one = register_map_on_proxies(best.functional_map, pair, guidance)
     if one is None:
         return state
     C, threads = one.functional_map[None, :FINE, :FINE], state.config.threads
@@ -291,7 +297,8 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     before = state.ranked[0].unregistered.score
     if not images or (asked == "auto" and not unduly and images[0].score < before + SCORE.mirror_gain):
         return state
-    ranked = ranking(images, other, copies, config.threads)
+    # A closer look raises no score by as much as would be needed.
+    ranked = ranking(images, other, copies, config.threads, state.ranked[0].score - SCORE.close_margin)
     image, energy = ranked[0], ranked[0].deformation_energy
 
     def gain(plain: _Search) -> float:

@@ -8,6 +8,7 @@ positions and normals, takes part in the next refinement beside functions and de
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -15,7 +16,6 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import to_numpy
-from kfmaps._progress import Done
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
@@ -55,7 +55,7 @@ class RegistrationPair:
 
 @dataclass(frozen=True, eq=False)
 class AlternatingResult:
-    """What :func:`alternating_registration` returns."""
+    """What a round of :func:`alternating_registration` makes."""
 
     functional_map: np.ndarray  # (k, k)
     registered_vertices: np.ndarray  # (n_s, 3): the source's, on the target
@@ -86,25 +86,22 @@ def registration_pair(
 
 
 def alternating_registration(
-    C: np.ndarray, on: RegistrationPair, led: DescriptorGuidance | None, report: Done | None = None
-) -> AlternatingResult:
-    """Improve a map between unlike shapes by registrations and refinements in turn.
+    C: np.ndarray, on: RegistrationPair, led: DescriptorGuidance | None
+) -> Iterator[AlternatingResult]:
+    """Improve a map between unlike shapes by registrations and refinements in turn; yields what each round has made.
 
-    ``C (k_t, k_s)``; ``led``: guides the refinements, for all vertices; ``report``: told how much is done, from 0 to 1.
+    ``C (k_t, k_s)``; ``led``: guides the refinements, for all vertices.
     """
     a, b = on.copies
     k = min(*(len(basis.eigenvalues) for basis in on.bases), _REFINE.stop)
     refine = partial(replace(_REFINE, stop=k, start=min(_REFINE.start, k)), threads=1)  # maps are repaired side by side
     here = led and led.at(a.vertices, b.vertices)
     found = refine(C, *on.bases, guide=here)
-    bent = a.mesh.vertices
-    for i in range(_ROUNDS):
+    for _ in range(_ROUNDS):
         bent = FIT.bent(on.ways[0], found.target_to_source, marks=on.landmarks)[0]
         lie = position_normal_guidance(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=combine_guidance([(1.0, here), (WEIGHT, lie)]))
-        if report is not None:
-            report((i + 1) / _ROUNDS)
-    return AlternatingResult(to_numpy(found.functional_map), _project_positions(bent, on.bases[0], on.source.basis))
+        yield AlternatingResult(to_numpy(found.functional_map), _project_positions(bent, on.bases[0], on.source.basis))
 
 
 def position_normal_guidance(source: Mesh, target: Mesh) -> DescriptorGuidance:
