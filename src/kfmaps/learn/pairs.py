@@ -79,10 +79,7 @@ class TrainingPair:
     n_landmarks: int
     truth: PairTruth | None
 
-    def __repr__(self) -> str:
-        """Return name and sizes in one line."""
-        sizes = f"{len(self.descriptors_s):,} and {len(self.descriptors_t):,} points"
-        return f"TrainingPair({self.name}, {sizes}, {'with' if self.truth else 'without'} truth)"
+    __repr__ = short_repr
 
     def swapped(self) -> TrainingPair:
         """Return the pair with source and target exchanged, without its truth."""
