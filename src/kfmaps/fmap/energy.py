@@ -104,7 +104,9 @@ class Energy:
 
     def breakdown(self, C: Array) -> dict[str, float]:
         """Return the weighted value of each term at ``C``; they add up to ``value(self, C)``."""
-        return {name: weight * value(self.terms[name], C) if weight else 0.0 for name, weight in self.weights.items()}
+        # With slices in single precision a value of zero may come out a little below.
+        known = ((name, weight, self.terms[name]) for name, weight in self.weights.items())
+        return {name: weight * max(value(term, C), 0.0) if weight else 0.0 for name, weight, term in known}
 
 
 def _total(arrays: Iterable[Array]) -> Array:
