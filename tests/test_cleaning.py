@@ -213,12 +213,12 @@ def test_descriptors_of_what_is_left_out_change_nothing() -> None:
     config = replace(SMALL, descriptors=replace(SMALL.descriptors, signature="none", landmark_descriptor="none"))
     one = match(source, target, config, descriptors=(source.vertices, target.vertices))
     far = np.full((1, 3), 9.0)
-    more = [Mesh(np.vstack([far, mesh.vertices]), mesh.faces + 1) for mesh in (source, target)]
+    a, b = (Mesh(np.vstack([far, mesh.vertices]), mesh.faces + 1) for mesh in (source, target))
     given = [np.vstack([np.nan * far, mesh.vertices]) for mesh in (source, target)]
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
-        other = match(*more, config, descriptors=(given[0], given[1]))
+        other = match(a, b, config, descriptors=(given[0], given[1]))
         with pytest.raises(InvalidInput, match=r"descriptors of source.*one row per vertex"):
-            match(*more, config, descriptors=(source.vertices, given[1]))
+            match(a, b, config, descriptors=(source.vertices, given[1]))
     np.testing.assert_array_equal(other.target_to_source[1:], one.target_to_source + 1)
 
 

@@ -50,9 +50,9 @@ def test_table_for_people(folder: Path) -> None:
     """A row for each method, with its errors in per cent."""
     told = json.loads((folder / "told.json").read_text())
     sizes = {name: told[name] for name in ("source_vertices", "target_vertices")}
-    console = Console(width=200, file=io.StringIO())
-    console.print(_table(told["shape"], sizes, told["methods"]))
-    shown = console.file.getvalue()
+    file = io.StringIO()
+    Console(width=200, file=file).print(_table(told["shape"], sizes, told["methods"]))
+    shown = file.getvalue()
     assert "two poses: 1,500 and 1,200 vertices" in shown
     rows = [line for line in shown.splitlines() if "landmarks " in line]
     for line, row in zip(rows, told["methods"], strict=True):

@@ -211,7 +211,7 @@ def test_the_rate_falls_to_zero(lessons):
 def test_the_penalty_holds_parameters_near_their_start(lessons):
     def moved(penalty):
         model = Model(CONFIG, lessons, ["gamma"])
-        before = model.log_gamma.detach().clone()
+        before = dict(model.named_parameters())["log_gamma"].detach().clone()
         made = learn(model, lessons, [], replace(QUICK, epochs=5, patience=9, rate=0.1, start_penalty=penalty))
         return float((made.parameters["log_gamma"] - before).abs().max())
 
