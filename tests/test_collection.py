@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ from kfmaps.collection.pair_graph import (
 from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_map
 from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
-from kfmaps.collection.sync_init import spanning_tree_init
+from kfmaps.collection.sync_init import spanning_tree_init, spectral_init
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
 from kfmaps.descriptors.spectral import log_heat_signature
 from kfmaps.fmap.constraints import nearest_orthogonal
@@ -331,6 +333,35 @@ def test_hands_agree_with_most() -> None:
     np.testing.assert_array_equal(chirality(4, apart, [False, False], [1.0, 1.0]), [1, -1, 1, -1])
     with pytest.raises(InvalidInput, match="from 0 on"):
         chirality(2, [(0, 1)], [True], [-1.0])
+
+
+def test_no_shape_would_gain_by_another_handedness() -> None:
+    """Also where pairs contradict each other, and the leading eigenvector's signs are not the best ones."""
+    rng = np.random.default_rng(0)
+    pairs = list(itertools.combinations(range(9), 2))
+    changed = 0
+    for _ in range(40):
+        kept, weights = rng.random(len(pairs)) < 0.5, rng.random(len(pairs))
+        signs = chirality(9, pairs, kept.tolist(), weights)
+        signed = np.zeros((9, 9))
+        for (a, b), same, w in zip(pairs, kept, weights, strict=True):
+            signed[a, b] = signed[b, a] = w if same else -w
+        assert (signs * (signed @ signs) >= -1e-9).all()
+        leading = np.where(np.linalg.eigh(signed)[1][:, -1] < 0, -1, 1)
+        changed += bool((signs * signs[0] != leading * leading[0]).any())
+    assert changed  # by those alone some of them would
+
+
+def test_frames_of_many_shapes_are_those_that_their_maps_agree_on() -> None:
+    """More unknowns than eigenvectors are worked out densely for: a chain, closed and crossed by further pairs."""
+    rng = np.random.default_rng(1)
+    count, k = 90, 20
+    frames = np.linalg.qr(rng.normal(size=(count, k, k)))[0]
+    ends = [(i, (i + step) % count) for i in range(count) for step in (1, 7)]
+    maps = [(frames[b] @ frames[a].T)[None] for a, b in ends]
+    found = spectral_init(count, ends, maps, [np.array([3.0])] * len(ends), k)
+    for (a, b), (C,) in zip(ends, maps, strict=True):
+        np.testing.assert_allclose(found[b], C @ found[a], atol=1e-4)
 
 
 def test_a_family_of_wrong_candidates_does_not_outvote_better_evidence() -> None:

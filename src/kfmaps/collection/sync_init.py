@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, eye_array
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
-from scipy.sparse.linalg import eigsh
 
 from kfmaps.fmap.constraints import nearest_orthogonal
+from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 
 MAX_LOG_ODDS = 4.0
 """Largest log-odds that a candidate's own evidence counts for."""
@@ -70,7 +70,8 @@ def spectral_init(
     if size <= 1500:  # unknowns up to which eigenvectors are worked out densely
         vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
     else:
-        start = np.random.default_rng(0).normal(size=size)
-        vectors = eigsh(whole, k=functions, which="LA", v0=start, tol=1e-3)[1]  # pyright: ignore[reportArgumentType]
+        # Where all maps agree the largest eigenvalue has all of them, and that of a long cycle has many close to it.
+        matrix = csr_array(eye_array(size) - whole)
+        vectors = smallest_eigenpairs(matrix, np.ones(size), functions, tolerance=1e-6).vectors
     parts = vectors.reshape(count, functions, functions)
     return np.stack([nearest_orthogonal(part) for part in parts])
