@@ -9,6 +9,7 @@ from conftest import blob
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import combine_guidance, descriptor_guidance
+from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.fmap.solvers import CG
 from kfmaps.fmap.zoomout import ZoomOut, batched_zoomout
 from kfmaps.geometry.coarsen import coarsen
@@ -283,3 +284,10 @@ def test_a_candidate_knows_the_fit_that_it_began_with(shape, other, monkeypatch)
         assert one.functional_map.shape == (size, size)
         assert set(one.energies) >= {"laplacian", "descriptors", "commutativity"}
     assert found.fit is began[found.initialization]
+
+
+def test_points_inside_triangles_are_guided_as_the_map_was(shape, other):
+    found = match(shape, other, replace(SMALL, registration=None))
+    assert found.precise_map is None
+    near = nearest_vertices(found.precise(), shape.mesh)
+    assert (near == found.target_to_source).mean() > 0.95

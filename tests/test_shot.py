@@ -245,3 +245,12 @@ def test_refuses_what_has_no_surface():
         shot(Mesh(np.where(vertices > 1, np.nan, vertices), blob(50).faces))
     with pytest.raises(InvalidInput, match="32"):
         mirror_shot(np.ones((3, 33)))
+
+
+def test_some_vertices_have_the_descriptor_that_they_have_among_all():
+    """Also of a mesh with a vertex of no face, which counts as the nearest one."""
+    mesh = blob(300)
+    more = Mesh(np.vstack([9 * mesh.vertices[:1], mesh.vertices]), mesh.faces + 1)
+    rows = np.array([5, 100, 0])
+    np.testing.assert_array_equal(shot(more, 0.2, at=rows), shot(more, 0.2)[rows])
+    np.testing.assert_array_equal(shot(more, 0.2)[1:], shot(mesh, 0.2))
