@@ -76,6 +76,11 @@ class PartScoring:
     w_deformation: float = 3.0
     """Weight of the logarithm of the deformation energy. A half of a body laid on its other half, front to back, agrees
     in all else; that it deforms by half as much again counts alike for stiff shapes and for soft ones."""
+    w_scale: float = 1.5
+    """Most that the scale of a small part may cost: what shrinks fits nearly everywhere."""
+    other_scale: float = 0.26
+    """:attr:`PartEvidence.scale_change` from which it costs that, as if the unit were another: a factor of 1.3. Right
+    parts have up to 1.16 from one person to another."""
     base_deformation: float = 0.005
     """Deformation energy that any part shows, by its mesh alone."""
     distinct_distance: float = 0.1
@@ -278,6 +283,8 @@ class PartEvidence:
     flipped_area: float = 0.0
     # Of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
+    # Of the scale of a small part against that of its file: absolute value of the logarithm of the ratio.
+    scale_change: float = 0.0
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
@@ -325,6 +332,7 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     """Return the score of a placement of a part, higher is better."""
     fits = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap - numbers.w_flipped * evidence.flipped_area
     fits += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
+    fits -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
     stiff = -math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
     return fits + numbers.w_deformation * stiff
 

@@ -8,6 +8,7 @@ pays for a place near the one that it has. Then the first few that differ are re
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -33,6 +34,7 @@ _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
 _LEAST_TRUST, _LEAST_TRUST_OF_TWO = 0.01, 1e-4
 """Trust that samples without any keep in a registration; of two parts many have no place on the other."""
+_MOST_FURTHER = 4  # further candidates for a small part
 _ROUNDS = (2, 5)  # how often candidates are refined, at least and at most
 
 
@@ -59,6 +61,8 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     evidence = replace(
         placement.evidence, deformation_energy=found.deformation_energy, gap=found.gap, flipped_area=found.flipped_area
     )
+    if pair.small_scale is not None:
+        evidence = replace(evidence, scale_change=abs(math.log(placement.scale / pair.small_scale)))
     if pair.both_partial:
         evidence = replace(evidence, pair_consistency=_overlap_consistency(found, pair))
     return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
@@ -111,6 +115,22 @@ def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) ->
 
     scales = [scale * ratio for ratio in (_SCALE_RATIOS[:1] if pair.fixed_scale else _SCALE_RATIOS)]
     return [one for some in parallel(place, scales, pair.threads) for one in some]
+
+
+def small_part_candidates(pair: PartPair, scale: float) -> list[PartCandidate]:
+    """Return further candidates for a small part at the ``scale`` of its file: the best few that differ.
+
+    Samples alone do not tell where a small part belongs, so all placements of beam searches and of relaxation are
+    registered, which takes 0.05 s each, before any is dropped.
+    """
+    found = []
+    for params in TRIALS[:2]:
+        similarity = shot_similarity(pair, scale, params)
+        begun = [*place_by_beams(pair, scale, similarity), place_by_relaxation(pair, scale, similarity, params)]
+        placed = [place_all(pair, Placement(scale, params, one, similarity)) for one in begun]
+        found += parallel(lambda one: make_candidate(one, pair), placed, pair.threads)
+    order = sorted(found, key=lambda one: -one.score)
+    return [_place_again(one, pair) for one in select_distinct(order, _differ, _MOST_FURTHER)]
 
 
 def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:

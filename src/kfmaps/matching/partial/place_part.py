@@ -13,7 +13,13 @@ from kfmaps.config import Config
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.partial.candidates import PartCandidate, compare_alternatives, make_candidate, margin
+from kfmaps.matching.partial.candidates import (
+    PartCandidate,
+    compare_alternatives,
+    make_candidate,
+    margin,
+    small_part_candidates,
+)
 from kfmaps.matching.partial.registration import (
     Overlap,
     PartRegistration,
@@ -36,6 +42,7 @@ from kfmaps.matching.score import select_distinct
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of that
 _MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
 _MAX_RATIO = 2.0  # of the sizes of two parts in one unit; an inch is 2.54 cm
+_SMALL = (0.25, 0.5)  # scales by the files between which a part is a small one, below a quarter of the area
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +85,8 @@ def place_part(
         part_samples(copy.mesh, count, copy.owner[marks], rng)
         for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
     ]
-    pair = PartPair(samples[0], samples[1], fixed, config.threads, both_partial)
+    small = None if both_partial or ratio is None or not _SMALL[0] < ratio < _SMALL[1] else ratio
+    pair = PartPair(samples[0], samples[1], fixed, config.threads, both_partial, small)
     report(0.15)
     scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER_SCALES if both_partial else ())]
     if not fixed and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
@@ -89,6 +97,7 @@ def place_part(
     for i, one in enumerate(likely):
         found.append(make_candidate(one, pair))
         report(0.5 + 0.15 * (i + 1) / len(likely))
+    found += [] if small is None else small_part_candidates(pair, small)
     found = compare_alternatives(found, pair)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole

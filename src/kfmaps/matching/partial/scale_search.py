@@ -40,6 +40,7 @@ class Placement:
     params: RelaxationParams  # those that it began with
     placed: Assignment
     similarity: np.ndarray  # (q, m): products of descriptors
+    weights: np.ndarray | None = None  # (q,): of the samples in :attr:`PartEvidence.similarity_rank`
 
     @property
     def evidence(self) -> PartEvidence:
@@ -47,7 +48,7 @@ class Placement:
         match = self.placed.match
         own = self.similarity[np.arange(len(match)), match]
         better = (self.similarity > own[:, None]).sum(axis=1)
-        rank = float(np.log((better + 1) / self.similarity.shape[1]).mean())
+        rank = float(np.average(np.log((better + 1) / self.similarity.shape[1]), weights=self.weights))
         return PartEvidence(self.placed.support, rank)
 
     @property
@@ -57,10 +58,15 @@ class Placement:
 
 
 def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> np.ndarray:
-    """Return mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks are settled."""
+    """Return mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks are settled.
+
+    Those of a small part are weighted: near its boundary distances decide.
+    """
     near = _shot_scale(scale)
     total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
     similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
+    if pair.small_scale is not None:
+        similarity *= pair.shot_weights(scale, max(params.radii))[:, None]
     landmarks = np.arange(pair.part.n_landmarks)
     similarity[landmarks] = -1.0
     similarity[landmarks, landmarks] = 2.0
@@ -91,7 +97,8 @@ def place_all(pair: PartPair, one: Placement) -> Placement:
     placed = reassign(pair.bounds(one.scale), pair.whole.distances, one.similarity, one.placed, n_landmarks)
     if pair.both_partial:
         placed = replace(placed, trust=placed.trust * _consistent_trust(pair, one.scale, placed))
-    return replace(one, placed=placed)
+    weights = None if pair.small_scale is None else pair.shot_weights(one.scale, max(TRIALS[0].radii)) ** 2
+    return replace(one, placed=placed, weights=weights)
 
 
 def _consistent_trust(pair: PartPair, scale: float, placed: Assignment) -> np.ndarray:
