@@ -152,6 +152,11 @@ def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
         np.testing.assert_array_equal(c.mesh.vertices, a.mesh.vertices)
         np.testing.assert_array_equal(d.mesh.vertices, b.mesh.vertices * MIRROR)
     np.testing.assert_array_equal(image.image.mesh.vertices, target.mesh.vertices * MIRROR)
+    here, there = kept.shot_guidance, image.shot_guidance
+    assert here is not None
+    assert there is not None
+    assert here is kept.shot_guidance
+    assert not np.allclose(here.target, there.target)
 
 
 def test_mending_tells_how_far_it_is(creatures, monkeypatch):
