@@ -261,6 +261,29 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     assert len(calls) == 5
 
 
+def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creatures, monkeypatch):
+    """The best repair began with an extremity match, all others lag: what is left of it leads nevertheless."""
+    source, target, truth = creatures
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
+    good, bad = score_maps([("matched", True), ("before", True)], np.stack([C, turned]), None, on, 1)
+
+    def made(C, where, _led):
+        yield alternate.AlternatingResult(C, where.source.mesh.vertices)
+        if not np.array_equal(C, turned.T):
+            raise NotConverged("it fell apart")
+        yield alternate.AlternatingResult(C, where.source.mesh.vertices)
+
+    monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=0.01))
+    monkeypatch.setattr(mending, "alternating_registration", made)
+    monkeypatch.setattr(mending, "_begin", lambda near, _samples: [*((c, None) for c in near), (good, None)])
+    ranked = [replace(bad, deformation_energy=1.0)]
+    none = np.zeros((0, 2), dtype=np.int64)
+    found, _ = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), none, 1)
+    assert [c.name for c in found] == ["matched", "before"]
+
+
 def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
     """It stays a rival that is bent as badly as the worst; what was good before its first round is not given up."""
     source, target, truth = creatures

@@ -126,7 +126,8 @@ def refine_by_registration(
     def end_one(i: int) -> Candidate | None:
         made = _best_repair(setting, *begun[i], [first[i], *rounds[i]][-1], i < len(near))
         report(i, 1.0)
-        return made
+        alone = first[i]  # where the second round falls apart, and the repair began with no candidate
+        return made if made or alone is None else score_registered(alone, setting.proxies)
 
     report(0, 0.0)
     first = parallel(begin_one, range(len(begun)), threads)

@@ -157,13 +157,9 @@ def search_map(
     report("candidates", 0.1)
     plain = drop_learned(config)
     own = user_descriptors(source, target, config.descriptors, descriptors)
-
-    def between(begin: float, end: float) -> Callable[[float], None]:
-        return lambda done: report("candidates", begin + (end - begin) * done)
-
     alone: list[Candidate] = []
     if len(pairs):
-        half = between(0.1, 0.5)
+        half = _candidates_between(report, 0.1, 0.5)
         alone = without_landmarks(source, target, plain, everything, given, descriptors=own, report=half)
 
     none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
@@ -172,7 +168,7 @@ def search_map(
 
     def search_with(wrong: np.ndarray) -> _Search:
         kept = drop_landmarks(everything, wrong) if wrong.any() else everything
-        rest = between(0.5 if len(pairs) else 0.1, 0.9)
+        rest = _candidates_between(report, 0.5 if len(pairs) else 0.1, 0.9)
         found: list[Candidate] = []
         if not len(pairs) or not wrong.all():
             left = pairs[~wrong]
@@ -191,6 +187,11 @@ def search_map(
         state = replace(state, ranked=merged)
     state, retries = _improve_best(state, report)
     return replace(_to_result(state, state.ranked[0], state.ranked[1:]), retries=retries, _search=state)
+
+
+def _candidates_between(report: Progress, begin: float, end: float) -> Callable[[float], None]:
+    """Return what tells progress from 0 to 1 as that of the candidates from ``begin`` to ``end``."""
+    return lambda done: report("candidates", begin + (end - begin) * done)
 
 
 def _improve_best(state: _Search, report: Progress) -> tuple[_Search, tuple[Candidate | SwappedRepair, ...]]:
