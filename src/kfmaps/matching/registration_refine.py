@@ -110,6 +110,32 @@ def refine_by_registration(
     setting = RepairSetting(source, target, pair, finer, samples, landmarks, copies.shot_guidance, graphs)
     near, rest = repairable(ranked, samples.source)
     begun = _begin(near, samples)
+    ended, behind = _repair_all(setting, begun, near, threads, progress)
+    tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
+    # Those that were given up count as bent as badly as the worst.
+    energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
+    energy, (strain, shot_error) = max(energies, default=None), reference_values(tried, max)
+    given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
+    reference, every = reference_values(tried, min), [*tried, *given_up]
+    order = in_order([normalize_errors(c, reference) for c in every])
+    which = dict(zip((id(c.functional_map) for c in every), (*ended, *behind), strict=True))
+    nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 3)[1:]  # two others that may turn out better
+    retries = (*nexts, SwappedRepair(setting, *begun[which[id(order[0].functional_map)]], reference))
+    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), retries
+
+
+def _repair_all(
+    setting: RepairSetting,
+    begun: list[tuple[Candidate, ExtremityVertices | None]],
+    near: list[Candidate],
+    threads: int | None,
+    progress: Progress | None,
+) -> tuple[dict[int, Candidate], dict[int, Candidate]]:
+    """Return the repaired candidates and those that are given up, by the number of what they began with.
+
+    After the first round the better of what that has made and of what was a candidate before, one of ``near``, tells
+    whether a second is worth it.
+    """
     rounds = [_repair_rounds(setting, *one) for one in begun]
     done = np.zeros(len(begun))
 
@@ -131,24 +157,15 @@ def refine_by_registration(
 
     report(0, 0.0)
     first = parallel(begin_one, range(len(begun)), threads)
-    # After the first round the better of that and of what was a candidate before tells whether a second is worth it.
-    states = [[c for c in (*near[i : i + 1], made) if c is not None] for i, made in enumerate(first)]
-    better = [max(some, key=_quality, default=None) for some in states]
-    least = max(_quality(c) for c in better if c is not None) - SCORE.repair_lag
-    going = [i for i, c in enumerate(better) if c is not None and _quality(c) >= least]
-    done[[i for i in range(len(begun)) if i not in going]] = 1.0
-    ended = {i: c for i, c in zip(going, parallel(end_one, going, threads), strict=True) if c is not None}
-    tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
-    # Those that were given up count as bent as badly as the worst.
-    energy, (strain, shot_error) = max(c.deformation_energy or 0.0 for c in tried), reference_values(tried, max)
-    behind = {i: c for i, c in enumerate(better) if c is not None and i not in going}
-    given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
-    reference, every = reference_values(tried, min), [*tried, *given_up]
-    order = in_order([normalize_errors(c, reference) for c in every])
-    which = dict(zip((id(c.functional_map) for c in every), (*ended, *behind), strict=True))
-    nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 3)[1:]  # two others that may turn out better
-    retries = (*nexts, SwappedRepair(setting, *begun[which[id(order[0].functional_map)]], reference))
-    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), retries
+    states = {i: [c for c in (*near[i : i + 1], made) if c is not None] for i, made in enumerate(first)}
+    better = {i: max(some, key=_quality) for i, some in states.items() if some}
+    least = max(map(_quality, better.values())) - SCORE.repair_lag
+    going = [i for i, c in better.items() if _quality(c) >= least]
+    behind = {i: c for i, c in better.items() if i not in going}
+    done[:] = 1.0
+    done[going] = 0.5
+    ended = zip(going, parallel(end_one, going, threads), strict=True)
+    return {i: c for i, c in ended if c is not None}, behind
 
 
 def _quality(one: Candidate) -> float:
