@@ -27,6 +27,8 @@ from kfmaps.matching.search import SearchResult, near_isometric, retry, search_m
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
+_OTHER = {"source": "target", "target": "source"}
+_HAS_MORE = "what is open has more besides, as a scan with its floor"
 _FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as a part and a whole"
 
 
@@ -59,16 +61,23 @@ def match(
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     seen = _part_suspected(task)
-    part, partial = _match_part(task, seen, marks)
+    best, about = _match_part(task, seen, marks)
     may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
-    if part is not None and (part.verdict == "sure" or not may_be_whole):
-        return _part_result(task, part, partial)
-    about = partial if part is None else MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
-    whole = _match_wholes(replace(task, partial=about), marks, descriptors, probes)
-    # A body with holes is found either way, one of other proportions as a whole alone.
-    if part is not None and part.confidence >= (whole.confidence or 0.0):
-        return _part_result(task, part, partial)
-    return whole
+    if best is None or (best.verdict != "sure" and may_be_whole):
+        # A body with holes is found either way, one of other proportions as a whole alone.
+        if best is not None:
+            about = MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
+        best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
+    if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
+        return best
+    other, about = _match_part(task, PartDetection(_OTHER[seen.which], _HAS_MORE), marks, stage="the other as a part")
+    small = about.scale is None or about.scale**2 < SCORE.part.full_area
+    return best if other is None or small else _likelier(best, other)
+
+
+def _likelier(first: Match | None, second: Match) -> Match:
+    """Return the match that is more probably right, the ``first`` of two alike."""
+    return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
 
 
 def _match_wholes(
@@ -106,19 +115,20 @@ def _part_suspected(task: MatchTask) -> PartDetection:
 
 
 def _match_part(
-    task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None
-) -> tuple[PartialMatch | None, MatchPart]:
+    task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None, stage: str = "parts"
+) -> tuple[Match | None, MatchPart]:
     """The match of a part and a whole, or ``None`` where both are whole; and what the match says of it."""
     if seen.which == "none":
         return None, MatchPart(reason=seen.reason)
     shapes, why = task.shapes("preserving"), seen.reason
-    with task.clock("parts"):
+    with task.clock(stage):
         part = match_partial(
             *shapes, task.config, seen.which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
         )
     if task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
         overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
-        return part, MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps)
+        partial = MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps)
+        return _part_result(task, part, partial), partial
     but = "each covers all of the other" if part.whole else "it fits nowhere"
     return None, MatchPart(reason=f"taken for whole: {why}, but {but}", suspected=True)
 
