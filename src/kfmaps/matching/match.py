@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,8 +28,8 @@ from kfmaps.matching.search import SearchResult, near_isometric, retry, search_m
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
-_OTHER = {"source": "target", "target": "source"}
-_HAS_MORE = "what is open has more besides, as a scan with its floor"
+_OTHER: dict[str, Literal["source", "target"]] = {"source": "target", "target": "source"}
+_HAS_MORE = "the other has more besides, as a scan with its floor"
 _FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as a part and a whole"
 
 
@@ -70,14 +71,24 @@ def match(
         best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
     if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
         return best
-    other, about = _match_part(task, PartDetection(_OTHER[seen.which], _HAS_MORE), marks, stage="the other as a part")
-    small = about.scale is None or about.scale**2 < SCORE.part.full_area
-    return best if other is None or small else _likelier(best, other)
+    return _compare_opposite(task, best, PartDetection(_OTHER[seen.which], _HAS_MORE), marks)
 
 
 def _likelier(first: Match | None, second: Match) -> Match:
     """Return the match that is more probably right, the ``first`` of two alike."""
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
+
+
+def _compare_opposite(task: MatchTask, best: Match, seen: PartDetection, marks: np.ndarray | None) -> Match:
+    """Return ``best``, or the match with the other shape as the part: a scan with its floor has more than its template.
+
+    One of the two has mostly shrunk as far as it may.
+    """
+    opposite, about = _match_part(task, seen, marks, stage="the other as a part", always=True)
+    if opposite is None or about.scale is None or about.scale**2 < SCORE.part.full_area:
+        return best
+    has_shrunk = marks is None and best.partial.scale is not None and best.partial.scale < SCORE.part.shrunk_scale
+    return opposite if has_shrunk else _likelier(best, opposite)
 
 
 def _match_wholes(
@@ -115,9 +126,12 @@ def _part_suspected(task: MatchTask) -> PartDetection:
 
 
 def _match_part(
-    task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None, stage: str = "parts"
+    task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None, stage: str = "parts", always: bool = False
 ) -> tuple[Match | None, MatchPart]:
-    """The match of a part and a whole, or ``None`` where both are whole; and what the match says of it."""
+    """Return the match of a part and a whole, and what it says of the part.
+
+    There is none where both are whole, or where the part fits nowhere and was neither asked for nor wanted ``always``.
+    """
     if seen.which == "none":
         return None, MatchPart(reason=seen.reason)
     shapes, why = task.shapes("preserving"), seen.reason
@@ -125,7 +139,7 @@ def _match_part(
         part = match_partial(
             *shapes, task.config, seen.which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
         )
-    if task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
+    if always or task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
         overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
         partial = MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps)
         return _part_result(task, part, partial), partial

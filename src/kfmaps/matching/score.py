@@ -99,6 +99,8 @@ class PartScoring:
     """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
     max_hole_opening: float = 0.2
     """Opening up to which a shape that is not surely placed as a part may be a whole one with holes."""
+    shrunk_scale: float = 0.26
+    """Scale up to which a placement without landmarks has shrunk as far as it may, mostly into nothing alike."""
     opening_ratio: float = 3.0
     """How many times the other's opening that of a part must be."""
 
