@@ -52,7 +52,7 @@ def batch(
     landmarks: Annotated[
         str | None,
         typer.Option(
-            help="Landmarks: these lines of the truth, plural from 1; or none. Default: those that the folder has.",
+            help="Landmarks: these lines of the truth, counted from 1; or none. Default: those that the folder has.",
             metavar="201,1121,...|none",
         ),
     ] = None,
