@@ -418,9 +418,9 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(monkeypatch, pair, 
         tried.append(task.partial.reason)
         return SimpleNamespace(verdict="sure", confidence=0.6)
 
-    part = SimpleNamespace(verdict=word, confidence=told)
-    answers = {"target": (part, MatchPart("target", "a part")), "source": (None, MatchPart())}
-    monkeypatch.setattr(matching, "_match_part", lambda _task, seen, *_, **__: answers[seen.which])
+    part = SimpleNamespace(verdict=word, confidence=told, whole=False, scale=0.1)
+    monkeypatch.setattr(matching, "_place_part", lambda *_: part)
+    monkeypatch.setattr(matching, "_part_result", lambda *_: part)
     monkeypatch.setattr(matching, "_match_wholes", wholes)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
@@ -437,6 +437,7 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(monkeypatch, pair, 
         ("ambiguous", "auto", 0.25, 0.5, 0.8, "opposite"),  # the part has shrunk
         ("ambiguous", "auto", 0.7, 0.7, 0.45, "part"),  # the opposite has shrunk, to a fifth of the area
         ("ambiguous", "auto", 0.25, 0.7, 0.25, "part"),  # both have
+        ("ambiguous, marked", "auto", 0.25, 0.5, 0.8, "part"),  # landmarks let a part be that small
         ("ambiguous", "target", 0.25, 0.7, 0.8, "part"),  # as asked for
         ("sure", "auto", 0.25, 0.99, 0.8, "part"),  # the opposite is not even tried
     ],
@@ -445,20 +446,23 @@ def test_what_is_open_may_have_more_than_what_is_closed(
     monkeypatch, pair, word, asked, scale, told, scale_of_opposite, expected
 ):
     """A scan with its floor holds a whole body, so the closed shape may be the part."""
-    about = {"target": MatchPart("target", "", scale), "source": MatchPart("source", "", scale_of_opposite)}
-    part = SimpleNamespace(verdict=word, confidence=0.6, partial=about["target"])
-    opposite = SimpleNamespace(verdict="likely", confidence=told)
+    word, _, marked = word.partition(", ")
+    landmarks = [[0, 0]] if marked else None
+    part = SimpleNamespace(verdict=word, confidence=0.6, whole=False, scale=scale, partial=MatchPart(scale=scale))
+    opposite = SimpleNamespace(verdict="likely", confidence=told, scale=scale_of_opposite)
     answers = {"target": part, "source": opposite}
     tried = []
 
-    def match_part(_task, seen, *_, **__):
-        tried.append(seen.which)
-        return answers[seen.which], about[seen.which]
+    def place_part(_task, which, *_):
+        tried.append(which)
+        return answers[which]
 
-    monkeypatch.setattr(matching, "_match_part", match_part)
+    monkeypatch.setattr(matching, "_place_part", place_part)
+    monkeypatch.setattr(matching, "_part_result", lambda _task, placed, _why: placed)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
-    assert matching.match(pair.source, pair.target, config) is answers["source" if expected == "opposite" else "target"]
+    found = matching.match(pair.source, pair.target, config, landmarks=landmarks)
+    assert found is answers["source" if expected == "opposite" else "target"]
     assert tried == ["target"] + ["source"] * (word != "sure" and asked == "auto")
 
 

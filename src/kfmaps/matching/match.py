@@ -28,7 +28,6 @@ from kfmaps.matching.search import SearchResult, near_isometric, retry, search_m
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
-_OTHER: dict[str, Literal["source", "target"]] = {"source": "target", "target": "source"}
 _HAS_MORE = "the other has more besides, as a scan with its floor"
 _FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as a part and a whole"
 
@@ -66,12 +65,10 @@ def match(
     may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
     if best is None or (best.verdict != "sure" and may_be_whole):
         # A body with holes is found either way, one of other proportions as a whole alone.
-        if best is not None:
-            about = MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
         best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
     if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
         return best
-    return _compare_opposite(task, best, PartDetection(_OTHER[seen.which], _HAS_MORE), marks)
+    return _compare_opposite(task, best, "target" if seen.which == "source" else "source", marks)
 
 
 def _likelier(first: Match | None, second: Match) -> Match:
@@ -79,15 +76,19 @@ def _likelier(first: Match | None, second: Match) -> Match:
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
 
 
-def _compare_opposite(task: MatchTask, best: Match, seen: PartDetection, marks: np.ndarray | None) -> Match:
+def _compare_opposite(
+    task: MatchTask, best: Match, which: Literal["source", "target"], landmarks: np.ndarray | None
+) -> Match:
     """Return ``best``, or the match with the other shape as the part: a scan with its floor has more than its template.
 
     One of the two has mostly shrunk as far as it may.
     """
-    opposite, about = _match_part(task, seen, marks, stage="the other as a part", always=True)
-    if opposite is None or about.scale is None or about.scale**2 < SCORE.part.full_area:
+    part = _place_part(task, which, landmarks, "the other as a part")
+    if part.scale**2 < SCORE.part.full_area:
         return best
-    has_shrunk = marks is None and best.partial.scale is not None and best.partial.scale < SCORE.part.shrunk_scale
+    scale = best.partial.scale
+    has_shrunk = landmarks is None and scale is not None and scale < SCORE.part.shrunk_scale
+    opposite = _part_result(task, part, _HAS_MORE)
     return opposite if has_shrunk else _likelier(best, opposite)
 
 
@@ -125,30 +126,35 @@ def _part_suspected(task: MatchTask) -> PartDetection:
     return detect_part(shapes[0].mesh, shapes[1].mesh)
 
 
-def _match_part(
-    task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None, stage: str = "parts", always: bool = False
-) -> tuple[Match | None, MatchPart]:
-    """Return the match of a part and a whole, and what it says of the part.
-
-    There is none where both are whole, or where the part fits nowhere and was neither asked for nor wanted ``always``.
-    """
+def _match_part(task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None) -> tuple[Match | None, MatchPart]:
+    """Return the match of a part and a whole, ``None`` where both are whole, and what a match of wholes says of it."""
     if seen.which == "none":
         return None, MatchPart(reason=seen.reason)
-    shapes, why = task.shapes("preserving"), seen.reason
-    with task.clock(stage):
-        part = match_partial(
-            *shapes, task.config, seen.which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
-        )
-    if always or task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
-        overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
-        partial = MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps)
-        return _part_result(task, part, partial), partial
+    part = _place_part(task, seen.which, landmarks, "parts")
+    if task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
+        return _part_result(task, part, seen.reason), MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if part.whole else "it fits nowhere"
-    return None, MatchPart(reason=f"taken for whole: {why}, but {but}", suspected=True)
+    return None, MatchPart(reason=f"taken for whole: {seen.reason}, but {but}", suspected=True)
 
 
-def _part_result(task: MatchTask, part: PartialMatch, partial: MatchPart) -> Match:
-    """The match of a part and a whole."""
+def _place_part(
+    task: MatchTask, which: Literal["source", "target", "both"], landmarks: np.ndarray | None, stage: str
+) -> PartialMatch:
+    """Return the placement of a part, timed as a ``stage``."""
+    with task.clock(stage):
+        return match_partial(
+            *task.shapes("preserving"),
+            task.config,
+            which,
+            landmarks=landmarks,
+            rng=task.seed,
+            progress=task.clock.report,
+        )
+
+
+def _part_result(task: MatchTask, part: PartialMatch, why: str) -> Match:
+    """Return the match of a part and a whole; ``why`` it was taken for one."""
+    overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
     registered = part.registered_vertices
     score = MatchScore(part.scores, None, None, "a part bent onto the other", part.rejected_landmarks)
     return task.result(
@@ -160,7 +166,7 @@ def _part_result(task: MatchTask, part: PartialMatch, partial: MatchPart) -> Mat
         confidence=part.confidence,
         score=score,
         registration=MatchRegistration(None if registered is None else task.pair.bent(registered)),
-        partial=partial,
+        partial=MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps),
     )
 
 
