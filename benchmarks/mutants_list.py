@@ -414,8 +414,8 @@ MUTANTS = tuple(
         ("axis=0).T)[0] > parts", "axis=0).T)[0] >= parts", "test_collection -k bridges"),
         ("gain = -signs * (signed @ signs)", "gain = signs * (signed @ signs)", "test_collection -k hands"),
         (
-            "roots = np.sqrt(np.maximum(shape.values[1:], 1e-9))",
-            "roots = np.sqrt(np.maximum(shape.values[:-1], 1e-9))",
+            "roots = np.sqrt(np.maximum(self.values[1:], 1e-9))",
+            "roots = np.sqrt(np.maximum(self.values[:-1], 1e-9))",
             "test_shape_differences",
         ),
         (
@@ -614,8 +614,8 @@ MUTANTS = tuple(
             "test_learned_search -k landmarks",
         ),
         (
-            "members = np.flatnonzero(sync.component == number)",
-            "members = np.flatnonzero(sync.component <= number)",
+            "np.flatnonzero(sync.component == number)",
+            "np.flatnonzero(sync.component <= number)",
             "test_shape_differences -k alone",
         ),
         # unlike shapes, bent and matched in turn

@@ -13,7 +13,6 @@ from kfmaps.collection.differences import (
     components,
     density,
     limit_shape,
-    operators,
     shape_distances,
 )
 from kfmaps.collection.pair_graph import complete_graph
@@ -46,10 +45,10 @@ def test_equal_shapes_do_not_differ() -> None:
     for isometric in (False, True):
         _, links, found, values = collection([np.eye(K)] * 4, isometric=isometric)
         latent = limit_shape(found.latent, first_maps(links), values)
-        assert shape_distances(operators(latent, values, "area")).max() < 1e-7
-        np.testing.assert_allclose(latent.areas.mean(axis=0), np.eye(K), atol=1e-7)
+        assert shape_distances(latent.operators("area")).max() < 1e-7
+        np.testing.assert_allclose(latent.operators().mean(axis=0), np.eye(K), atol=1e-7)
         assert (np.diff(latent.values) >= -1e-9).all()
-    assert shape_distances(operators(latent, values, "conformal")).max() < 1e-6
+    assert shape_distances(latent.operators("conformal")).max() < 1e-6
     np.testing.assert_allclose(latent.values, VALUES, atol=1e-6)
 
 
@@ -57,8 +56,8 @@ def test_other_eigenvalues_show_in_the_conformal_difference_alone() -> None:
     _, links, found, values = collection([np.eye(K)] * 4, isometric=True)
     values[1] *= 2
     latent = limit_shape(found.latent, first_maps(links), values)
-    assert shape_distances(latent.areas).max() < 1e-7
-    D = operators(latent, values, "conformal")
+    assert shape_distances(latent.operators()).max() < 1e-7
+    D = latent.operators("conformal")
     np.testing.assert_allclose(D[1], 2 * D[0], atol=1e-6)
     np.testing.assert_allclose(D.mean(axis=0), np.eye(K - 1), atol=1e-6)
 
@@ -67,14 +66,14 @@ def test_planted_stretches_are_the_distances() -> None:
     one = np.diag([1, 1, 1.2, 1, 1, 1, 1, 1.0])
     own, links, found, values = collection([np.eye(K), one, np.eye(K), one @ one])
     latent = limit_shape(found.latent, first_maps(links), values)
-    D = shape_distances(operators(latent, values))
+    D = shape_distances(latent.operators())
     assert D[0, 2] < 1e-6
     assert 0 < D[0, 1] < D[0, 3]
     # The same in any order of the shapes.
     order = [2, 0, 3, 1]
     again = [Edge(order.index(a.source), order.index(a.target), a.candidates) for a in links]
     other = limit_shape(synchronize(4, again, K).latent, first_maps(again), values)
-    np.testing.assert_allclose(shape_distances(operators(other, values)), D[np.ix_(order, order)], atol=1e-6)
+    np.testing.assert_allclose(shape_distances(other.operators()), D[np.ix_(order, order)], atol=1e-6)
     # Maps into the latent space agree with those between shapes.
     for link in links:
         np.testing.assert_allclose(
@@ -106,7 +105,7 @@ def test_what_is_larger_is_denser_there() -> None:
     latent = limit_shape(found.latent, first_maps(links), values)
     functions = own[0] @ np.eye(K)  # vertex i of shape 0 is the i-th of the planted functions
     basis = Basis(VALUES, functions.T, np.ones(K))
-    D = operators(latent, values)
+    D = latent.operators()
     ratio = density(D, latent, 0, basis)
     np.testing.assert_allclose(ratio.mean(axis=0), 1.0, atol=1e-6)
     assert ratio[1, 7] / ratio[0, 7] == pytest.approx(1.3**2, rel=1e-3)
@@ -120,7 +119,7 @@ def test_a_latent_function_that_a_shape_hardly_has_does_not_count_there() -> Non
     latent = limit_shape(found.latent, first_maps(links), values)
     left, sizes, right = np.linalg.svd(latent.maps[0], full_matrices=False)
     basis = Basis(VALUES, np.random.default_rng(0).normal(size=(40, K)), np.ones(40))
-    D = operators(latent, values)
+    D = latent.operators()
 
     def of(last: float) -> np.ndarray:
         maps = ((left * [*sizes[:-1], last * sizes[0]]) @ right, *latent.maps[1:])
@@ -140,7 +139,7 @@ def test_what_hangs_together_not_has_no_common_basis() -> None:
     assert component_limit_shapes(found, links, values, K) == ()
     latent = limit_shape(found.latent[:2], first_maps(links[:1]), values[:2])
     with pytest.raises(InvalidInput, match="conformal"):
-        operators(latent, values[:2], "other")
+        latent.operators("other")
 
 
 def test_each_part_has_the_basis_that_it_has_alone() -> None:
@@ -160,7 +159,7 @@ def test_each_part_has_the_basis_that_it_has_alone() -> None:
     alone = synchronize(3, small, K)
     (own,) = component_limit_shapes(alone, small, values[:3], K - 1)
     for kind in ("area", "conformal"):
-        both = [shape_distances(operators(b.limit_shape, values[:3], kind)) for b in (bases[1], own)]
+        both = [shape_distances(b.operators(kind)) for b in (bases[1], own)]
         np.testing.assert_allclose(both[0], both[1], atol=1e-7)
-    assert own.limit_shape.maps.shape == (3, K, K - 1)
+    assert own.maps.shape == (3, K, K - 1)
     assert component_limit_shapes(synchronize(2, rest[:0], K), [], values[:2], K) == ()

@@ -7,7 +7,7 @@ The scores of each pair, each composition and each replacement are a file of the
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -37,16 +37,15 @@ from kfmaps.batch.work import (
     true_vertices,
 )
 from kfmaps.collection.consistency import (
-    Consistency,
     StoredMap,
+    common_bases,
     compose_path,
     refine_replacement,
     score_candidates,
     score_stored,
     stored_candidates,
-    synchronize_store,
 )
-from kfmaps.collection.repair import CyclePath, Replacement
+from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair_maps
 from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.io import load_map
 from kfmaps.shape import Shape
@@ -93,80 +92,67 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
     ``results``: of the plan's pairs; those that failed are left as they are.
     """
     known = {r.pair: r for r in results if r.status == "done"}
-    tasks = [task for task in plan.tasks if task.pair in known]
-    if not tasks:
+    asked = [_ScoreTask(task) for task in plan.tasks if task.pair in known]
+    if not asked:
         raise refuse("--consistent", "pairs that are matched", "none", "see why the pairs failed")
-    scored = list(zip(tasks, pool.map("evidence of pairs", _score_pair, tasks, failures=True), strict=True))
-    notes = [f"{task}: {error_text(maps)}" for task, maps in scored if isinstance(maps, Exception)]
-    good = {task: maps for task, maps in scored if not isinstance(maps, Exception)}
-    if not good:
+    scored = list(zip(asked, pool.map("evidence of pairs", _score_maps, asked, failures=True), strict=True))
+    notes = [f"{job}: {error_text(maps)}" for job, maps in scored if isinstance(maps, Exception)]
+    tasks, scores = [], []
+    for job, maps in scored:
+        if not isinstance(maps, Exception):
+            tasks.append(job.task)
+            scores.append(maps)
+    if not tasks:
         _remove_replacements(plan, set())
         return ConsistentResult(tuple(results), {}, (), tuple(notes))
-    store = _FolderStore(plan, list(good), list(good.values()), known, pool)
-    found = synchronize_store(store)
-    changed = {r.pair: r for r in store.replaced if r.status == "done"}
-    notes += [f"{r.pair} stays as it was: {r.reason}" for r in store.replaced if r.status == "failed"]
-    chance = {t.pair: p for t, p in zip(store.tasks, found.repaired.probabilities.tolist(), strict=True)}
+    shapes = {t.name: t for task in tasks for t in (task.source, task.target)}
+    names = list(shapes)
+    ends = [(names.index(task.pair.source), names.index(task.pair.target)) for task in tasks]
+
+    def along(edge: int, path: CyclePath) -> _ScoreTask:
+        return _ScoreTask(tasks[edge], tuple((tasks[s.edge], s.candidate, s.forward) for s in path.steps))
+
+    def compose(paths: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
+        return [one for (one,) in pool.map("compositions", _score_maps, [along(*path) for path in paths])]
+
+    repaired = repair_maps(len(names), ends, scores, compose)
+    jobs = []
+    for change in repaired.replacements:
+        task, path = tasks[change.edge], None if change.path is None else along(change.edge, change.path)
+        if change.kind != "none":
+            jobs.append(_ReplaceTask(task, change, path, change.label(names), known[task.pair]))
+    _remove_replacements(plan, {job.task.key for job in jobs})
+    replaced = pool.map("replaced maps", _replace_map, jobs)
+    changed = {r.pair: r for r in replaced if r.status == "done"}
+    notes += [f"{r.pair} stays as it was: {r.reason}" for r in replaced if r.status == "failed"]
+    chance = {t.pair: p for t, p in zip(tasks, repaired.probabilities.tolist(), strict=True)}
     final = tuple(changed.get(r.pair, replace(r, agreement=chance.get(r.pair))) for r in results)
-    doubted = [c for c in found.repaired.replacements if c.kind == "none"]
-    _write_pairs(plan.folder / CONSISTENT / _TABLE, store, found)
-    notes += write_shape_statistics(plan.folder / CONSISTENT, store.names, store.shape, found)
-    before = {key: known[key] for key in changed}
-    return ConsistentResult(final, before, tuple(f"{store.tasks[c.edge]}: {c.reason()}" for c in doubted), tuple(notes))
-
-
-class _FolderStore:
-    """A :class:`~kfmaps.collection.consistency.MapStore` of the maps of a run, worked on by a pool of workers."""
-
-    def __init__(
-        self,
-        plan: Plan,
-        tasks: list[PairTask],
-        scores: list[list[ScoredMap]],
-        results: dict[Pair, Result],
-        pool: WorkerPool,
-    ) -> None:
-        self.plan, self.tasks, self.scores, self.results, self.pool = plan, tasks, scores, results, pool
-        self.shapes = {t.name: t for task in tasks for t in (task.source, task.target)}
-        self.names = list(self.shapes)
-        number = {name: i for i, name in enumerate(self.names)}
-        self.ends = [(number[task.pair.source], number[task.pair.target]) for task in tasks]
-        self.replaced: list[Result] = []
-
-    def shape(self, number: int) -> Shape:
-        return load_prepared(self.shapes[self.names[number]])
-
-    def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
-        return self.pool.map("compositions", _score_composition, [self._path(*one) for one in asked])
-
-    def replace(self, replacements: Sequence[Replacement]) -> None:
-        jobs = []
-        for change in replacements:
-            task = self.tasks[change.edge]
-            path = None if change.path is None else self._path(change.edge, change.path)
-            before = self.results[task.pair]
-            jobs.append(_ReplaceTask(task, change, path, change.label(self.names), before))
-        _remove_replacements(self.plan, {job.task.key for job in jobs})
-        self.replaced = self.pool.map("replaced maps", _replace_map, jobs)
-
-    def _path(self, edge: int, path: CyclePath) -> _PathTask:
-        return _PathTask(self.tasks[edge], tuple((self.tasks[s.edge], s.candidate, s.forward) for s in path.steps))
+    doubted = [f"{tasks[c.edge]}: {c.reason()}" for c in repaired.replacements if c.kind == "none"]
+    folder = plan.folder / CONSISTENT
+    _write_pairs(folder / _TABLE, tasks, scores, names, repaired)
+    common = common_bases(repaired, ends, scores, (load_prepared(task).basis for task in shapes.values()))
+    notes += write_shape_statistics(folder, names, lambda name: load_prepared(shapes[name]).basis, repaired, common)
+    return ConsistentResult(final, {key: known[key] for key in changed}, tuple(doubted), tuple(notes))
 
 
 @dataclass(frozen=True)
-class _PathTask:
-    """A path around a pair: of each step the pair, the number of its candidate, and whether it goes forward."""
+class _ScoreTask:
+    """Maps of a pair to be scored: its own and the alternatives or, with ``steps``, the composition along a path.
+
+    A step is a pair, the number of its candidate, and whether it goes forward.
+    """
 
     task: PairTask
-    steps: tuple[tuple[PairTask, int, bool], ...]
+    steps: tuple[tuple[PairTask, int, bool], ...] = ()
 
     def __str__(self) -> str:
         return str(self.task)
 
     @property
     def file(self) -> Path:
+        folder, key = Path(self.task.folder) / CONSISTENT, self.task.key
         named = digest_of([[task.key, candidate, forward] for task, candidate, forward in self.steps])
-        return Path(self.task.folder) / CONSISTENT / PATHS / f"{self.task.key}.{named}.npz"
+        return folder / PATHS / f"{key}.{named}.npz" if self.steps else folder / EVIDENCE / f"{key}.npz"
 
 
 @dataclass(frozen=True)
@@ -175,7 +161,7 @@ class _ReplaceTask:
 
     task: PairTask
     change: Replacement
-    path: _PathTask | None
+    path: _ScoreTask | None
     label: str
     before: Result
 
@@ -198,60 +184,46 @@ class _Evidence:
         return [ScoredMap(C, score, orientation, bool(back)) for C, (score, orientation, back) in rows]
 
 
-def _evidence(path: Path, inputs: str, make: Callable[[], tuple[list[ScoredMap], np.ndarray | None]]) -> _Evidence:
-    """What is kept at ``path`` of these ``inputs``, else what ``make`` returns, which is kept."""
-    found = load_record(path, _Evidence)
-    if found is None or found.inputs != inputs:
-        with one_blas_thread():
-            maps, points = make()
-        numbers = np.array([[one.score, one.orientation, one.reversed] for one in maps], dtype=np.float64)
-        found = _Evidence(inputs, np.stack([one.map for one in maps]), numbers, points)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        save_record(path, found)
-    return found
-
-
 def _map_digest(task: PairTask) -> str:
     """Digest of a pair's own map and all that it was made from."""
     path = map_path(Path(task.folder), task.key)
     return digest_of([_LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
 
 
-def _score_pair(task: PairTask) -> list[ScoredMap]:
-    """Score the map of a pair and its alternatives, unless that is kept.
+def _evidence(job: _ScoreTask) -> _Evidence:
+    """Score maps of a pair, unless their scores are kept.
 
     Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
     """
+    digests = [_map_digest(task) for task, _, _ in job.steps] or _map_digest(job.task)
+    inputs = digest_of(digests, 32)
+    found = load_record(job.file, _Evidence)
+    if found is not None and found.inputs == inputs:
+        return found
+    shapes, points = _shapes(job.task), None
+    with one_blas_thread():
+        samples = pair_samples(job.task, shapes)
+        if job.steps:
+            bases = [None if forward else load_prepared(task.source).basis for task, _, forward in job.steps]
+            candidates = [_candidates(task)[number] for task, number, _ in job.steps]
+            made = compose_path(list(zip(candidates, bases, strict=True)))
+            maps, points = score_candidates([made], shapes, samples), made[0]
+        else:
+            file = load_map(map_path(Path(job.task.folder), job.task.key))
+            lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)
+            if lost:
+                text = "the map of a part stays as it is and takes no part in this"
+                raise InvalidInput(f"{text}: {lost} of {n_t} vertices have no counterpart")
+            maps = score_stored(file, shapes, samples)
+    numbers = np.array([[one.score, one.orientation, one.reversed] for one in maps], dtype=np.float64)
+    found = _Evidence(inputs, np.stack([one.map for one in maps]), numbers, points)
+    job.file.parent.mkdir(parents=True, exist_ok=True)
+    save_record(job.file, found)
+    return found
 
-    def make() -> tuple[list[ScoredMap], None]:
-        file = load_map(map_path(Path(task.folder), task.key))
-        lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)
-        if lost:
-            text = "the map of a part stays as it is and takes no part in this"
-            raise InvalidInput(f"{text}: {lost} of {n_t} vertices have no counterpart")
-        shapes = _shapes(task)
-        return score_stored(file, shapes, pair_samples(task, shapes)), None
 
-    path = Path(task.folder) / CONSISTENT / EVIDENCE / f"{task.key}.npz"
-    return _evidence(path, _map_digest(task), make).maps
-
-
-def _compose(job: _PathTask) -> _Evidence:
-    """Compose the maps of a path and score the composition, unless that is kept."""
-
-    def make() -> tuple[list[ScoredMap], np.ndarray]:
-        steps = [
-            (_candidates(task)[number], None if forward else load_prepared(task.source).basis)
-            for task, number, forward in job.steps
-        ]
-        made, shapes = compose_path(steps), _shapes(job.task)
-        return score_candidates([made], shapes, pair_samples(job.task, shapes)), made[0]
-
-    return _evidence(job.file, digest_of([_map_digest(task) for task, _, _ in job.steps], 32), make)
-
-
-def _score_composition(job: _PathTask) -> ScoredMap:
-    return _compose(job).maps[0]
+def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
+    return _evidence(job).maps
 
 
 def _replace_map(job: _ReplaceTask) -> Result:
@@ -269,8 +241,10 @@ def _replace_map(job: _ReplaceTask) -> Result:
             return there
         path.unlink(missing_ok=True)
         other.unlink(missing_ok=True)
-        made = None if job.path is None else _compose(job.path)
-        composition = None if made is None or made.points is None else (made.points, made.maps[0].reversed)
+        composition = None
+        if job.path is not None:
+            made = _evidence(job.path)
+            composition = None if made.points is None else (made.points, made.maps[0].reversed)
         shapes = _shapes(task)
         config, candidates = replace(task.spec.config, threads=1), _candidates(task)
         found = refine_replacement(change, candidates, composition, shapes, config, job.label, task.spec.seed)
@@ -308,15 +282,16 @@ def _remove_replacements(plan: Plan, kept: set[str]) -> None:
             _replacement_map(plan.folder, task.key).unlink(missing_ok=True)
 
 
-def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:
+def _write_pairs(
+    path: Path, tasks: list[PairTask], scores: list[list[ScoredMap]], names: list[str], repaired: RepairResult
+) -> None:
     """What the collection says of every pair."""
     rows: list[list[object]] = [
         ["source", "target", "candidates", "probability", "residual", "score", "changed", "why"]
     ]
-    changes = {change.edge: change for change in found.repaired.replacements}
-    sync = found.repaired.sync
-    for i, (task, maps) in enumerate(zip(store.tasks, store.scores, strict=True)):
+    changes = {change.edge: (change.label(names), change.reason()) for change in repaired.replacements}
+    sync = repaired.sync
+    for i, (task, maps) in enumerate(zip(tasks, scores, strict=True)):
         numbers = f"{sync.probabilities[i][0]:.6f}", f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"
-        why = (changes[i].label(store.names), changes[i].reason()) if i in changes else ("", "")
-        rows.append([task.pair.source, task.pair.target, len(maps), *numbers, *why])
+        rows.append([task.pair.source, task.pair.target, len(maps), *numbers, *changes.get(i, ("", ""))])
     write_rows(path, rows)

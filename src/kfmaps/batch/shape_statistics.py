@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps.batch.results import write_rows
-from kfmaps.collection.consistency import Consistency
-from kfmaps.collection.differences import components, density, operators, shape_distances
+from kfmaps.collection.differences import LimitShape, components, density, shape_distances
 from kfmaps.collection.pair_graph import medoid
+from kfmaps.collection.repair import RepairResult
+from kfmaps.geometry.basis import Basis
 from kfmaps.io import atomic_output
-from kfmaps.shape import Shape
 
 SHAPES, _DISTANCES, _LATENT = "shapes.csv", "distances.csv", "latent.npz"
 _N_COMPONENTS = 5
@@ -20,20 +20,22 @@ DIFFERENCE_KINDS = ("area", "conformal")
 
 
 def write_shape_statistics(
-    folder: Path, names: list[str], shape: Callable[[int], Shape], found: Consistency
+    folder: Path,
+    names: list[str],
+    basis: Callable[[str], Basis],
+    repaired: RepairResult,
+    limit_shapes: tuple[LimitShape, ...],
 ) -> list[str]:
     """Write the tables and the limit shape of each component that pairs join; what could not be, in words."""
-    hands = found.repaired.chirality
+    hands, parts = repaired.chirality, repaired.sync.component
     hand = ["" if (hands == 1).all() else ("+" if h > 0 else "-") for h in hands]
-    parts = found.repaired.sync.component
     for path in folder.glob(f"{Path(_LATENT).stem}*.npz"):
         path.unlink()
     scores: list[dict[str, str]] = [{} for _ in names]
     apart: list[list[str]] = []
-    for number, common in enumerate(found.limit_shapes):
+    for number, common in enumerate(limit_shapes):
         own = [names[i] for i in common.members.tolist()]
-        values = found.eigenvalues[common.members]
-        matrices = {kind: operators(common.limit_shape, values, kind) for kind in DIFFERENCE_KINDS}
+        matrices = {kind: common.operators(kind) for kind in DIFFERENCE_KINDS}
         pca = {kind: components(matrices[kind], _N_COMPONENTS) for kind in DIFFERENCE_KINDS}
         distances = {kind: shape_distances(matrices[kind]) for kind in DIFFERENCE_KINDS}
         for kind in DIFFERENCE_KINDS:
@@ -42,11 +44,11 @@ def write_shape_statistics(
         for i, j in zip(*np.triu_indices(len(own), 1), strict=True):
             apart.append([own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in DIFFERENCE_KINDS)])
         middle = medoid(distances["area"])
-        basis = shape(int(common.members[middle])).basis
-        arrays = {"names": np.array(own), "maps": common.limit_shape.maps, "values": common.limit_shape.values}
+        own_basis = basis(own[middle])
+        arrays = {"names": np.array(own), "maps": common.maps, "values": common.values}
         arrays |= {f"explained_{kind}": pca[kind].parts for kind in DIFFERENCE_KINDS}
         for kind in DIFFERENCE_KINDS:
-            arrays[f"variation_{kind}"] = density(matrices[kind], common.limit_shape, middle, basis).std(axis=0)
+            arrays[f"variation_{kind}"] = density(matrices[kind], common, middle, own_basis).std(axis=0)
         path = _limit_shape_path(folder, number)
         with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
             np.savez(file, allow_pickle=False, middle=np.array(own[middle]), **arrays)
@@ -54,14 +56,14 @@ def write_shape_statistics(
     titles = [title for title in titles if any(title in row for row in scores)]
     rows = [[name, hand[i], int(parts[i]), *(scores[i].get(t, "") for t in titles)] for i, name in enumerate(names)]
     write_rows(folder / SHAPES, [["shape", "hand", "part", *titles], *rows])
-    if not found.limit_shapes:
+    if not limit_shapes:
         (folder / _DISTANCES).unlink(missing_ok=True)
         return ["shapes that hang together, three or more, would have a common basis and principal components"]
     write_rows(folder / _DISTANCES, [["shape", "other", *DIFFERENCE_KINDS], *apart])
-    count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in found.limit_shapes)
+    count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in limit_shapes)
     if count == 1:
         return []
-    line = f"no pair joins the {count} parts of the collection; {len(found.limit_shapes)} of them have a common basis"
+    line = f"no pair joins the {count} parts of the collection; {len(limit_shapes)} of them have a common basis"
     return [line + " of their own" + (f"; {alone} shapes are in parts of fewer than three" if alone else "")]
 
 

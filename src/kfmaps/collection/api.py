@@ -13,17 +13,17 @@ from kfmaps._records import short_repr
 from kfmaps._threads import one_blas_thread
 from kfmaps.collection.consistency import (
     StoredMap,
+    common_bases,
     compose_path,
     refine_replacement,
     score_candidates,
     score_stored,
     stored_candidates,
-    synchronize_store,
 )
-from kfmaps.collection.differences import ComponentLimitShape, LimitShape, operators, shape_distances
+from kfmaps.collection.differences import LimitShape, shape_distances
 from kfmaps.collection.pair_graph import signature, signature_graph
 from kfmaps.collection.paths import adjacency, best_paths
-from kfmaps.collection.repair import CyclePath, Replacement
+from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.config import Config
 from kfmaps.io import check_map
@@ -56,7 +56,7 @@ class Collection:
         Of each pair whose map others contradict: what replaced it, or "doubted".
     chirality : dict of str to int
         1 and -1: shapes that are mirror images of each other's kind.
-    limit_shapes : tuple of ComponentLimitShape
+    limit_shapes : tuple of LimitShape
         A common basis of all shapes or, where pairs do not join them all, of each part of three or more, the largest
         first.
     parts : tuple of (str, str)
@@ -72,7 +72,7 @@ class Collection:
     probabilities: tuple[float, ...]
     replacements: dict[tuple[str, str], str]
     chirality: dict[str, int]
-    limit_shapes: tuple[ComponentLimitShape, ...] = ()
+    limit_shapes: tuple[LimitShape, ...] = ()
     parts: tuple[tuple[str, str], ...] = ()
 
     __repr__ = short_repr
@@ -81,7 +81,7 @@ class Collection:
     def limit_shape(self) -> LimitShape | None:
         """The common basis of all shapes; ``None`` where pairs do not join them all, or there are only two."""
         whole = self.limit_shapes and len(self.limit_shapes[0].members) == len(self.names)
-        return self.limit_shapes[0].limit_shape if whole else None
+        return self.limit_shapes[0] if whole else None
 
     def map(self, source: str, target: str) -> np.ndarray:
         """Return a vertex of ``source`` for each vertex of ``target``, (n_t,), of any two shapes that maps join.
@@ -131,14 +131,8 @@ class Collection:
         found = np.full((len(self.names),) * 2, np.nan)
         np.fill_diagonal(found, 0.0)
         for one in self.limit_shapes:
-            values = self.eigenvalues()[one.members]
-            found[np.ix_(one.members, one.members)] = shape_distances(operators(one.limit_shape, values, kind))
+            found[np.ix_(one.members, one.members)] = shape_distances(one.operators(kind))
         return found
-
-    def eigenvalues(self) -> np.ndarray:
-        """Return the eigenvalues of each shape at unit area, as many as the common bases need, (n, k)."""
-        k = self.limit_shapes[0].limit_shape.maps.shape[1] if self.limit_shapes else 0
-        return np.stack([shape.basis.eigenvalues[:k] for shape in self.shapes])
 
     def _number(self, name: str) -> int:
         if name not in self.names:
@@ -149,8 +143,20 @@ class Collection:
         return [(self.names.index(a), self.names.index(b)) for a, b in self.pairs]
 
 
-_Part = tuple[tuple[int, int], np.ndarray, Match | None]
-"""A pair by number, its map, in which some vertices have no counterpart, and its match where one was made here."""
+@dataclass(eq=False)
+class _PairMaps:
+    """A pair of shapes, by number, with its map and the map's alternatives, and their scores where all is matched."""
+
+    ends: tuple[int, int]
+    shapes: tuple[Shape, Shape]
+    samples: tuple[ShapeSamples, ShapeSamples]
+    match: Match | None  # where one was made here
+    candidates: list[StoredMap]
+    scores: list[ScoredMap] = field(default_factory=list)
+
+    @property
+    def is_part(self) -> bool:
+        return bool((self.candidates[0][0] < 0).any())
 
 
 def match_collection(
@@ -198,20 +204,22 @@ def match_collection(
     config = config or Config()
     progress = progress or (lambda _what, _done, _of: None)
     names, ready = _prepared(shapes, config, progress)
-    store = _MemoryStore(names, ready, config, rng, [scoring_samples(shape, rng) for shape in ready])
+    samples = [scoring_samples(shape, rng) for shape in ready]
     known = {} if maps is None else _checked_maps(maps, names, ready)
     ends = tuple(known) if maps is not None else signature_graph(graph, np.stack([signature(s.basis) for s in ready]))
-    parts: list[_Part] = []
+    pairs: list[_PairMaps] = []
     for i, (a, b) in enumerate(ends):
-        match_ab = None if (a, b) in known else store.match(a, b)
+        both, probes = (ready[a], ready[b]), (samples[a], samples[b])
+        match_ab = None if (a, b) in known else match(*both, config, rng=rng, probes=probes)
         file = known[a, b] if match_ab is None else as_map(match_ab)
-        progress("pairs", i + 1, len(ends))
-        if (check_map(file, name=f"map {names[a]} → {names[b]}", lost=True) < 0).any():
-            parts.append(((a, b), file.target_to_source, match_ab))
-            continue
         told = match_ab or (maps or {}).get((names[a], names[b]))
-        store.add((a, b), file, match_ab, told.orientation == "reversing" if isinstance(told, Match) else None)
-    return _collected(store, parts)
+        turned = told.orientation == "reversing" if isinstance(told, Match) else None
+        pairs.append(_PairMaps((a, b), both, probes, match_ab, stored_candidates(file, turned)))
+        progress("pairs", i + 1, len(ends))
+        if not pairs[-1].is_part:
+            with one_blas_thread():
+                pairs[-1].scores = score_stored(file, both, probes, turned)
+    return _collected(names, ready, pairs, config, rng)
 
 
 def _prepared(
@@ -229,83 +237,45 @@ def _prepared(
     return tuple(given), ready
 
 
-def _collected(store: _MemoryStore, parts: list[_Part]) -> Collection:
-    """Make the maps of a store agree; ``parts`` are the pairs that take no part, their maps and matches."""
-    result, names = synchronize_store(store), store.names
-    pairs = tuple((names[a], names[b]) for a, b in (*store.ends, *(pair for pair, _, _ in parts)))
+def _collected(
+    names: tuple[str, ...], shapes: list[Shape], pairs: list[_PairMaps], config: Config, seed: int
+) -> Collection:
+    """Make the maps of the pairs agree; those of parts take no part in it."""
+    whole = [pair for pair in pairs if not pair.is_part]
+    parts = [pair for pair in pairs if pair.is_part]
+
+    def compose(path: CyclePath) -> StoredMap:
+        steps = ((whole[step.edge], step) for step in path.steps)
+        return compose_path([(p.candidates[s.candidate], None if s.forward else p.shapes[0].basis) for p, s in steps])
+
+    def score(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
+        with one_blas_thread():
+            return [score_candidates([compose(p)], whole[i].shapes, whole[i].samples)[0] for i, p in asked]
+
+    ends, scores = [pair.ends for pair in whole], [pair.scores for pair in whole]
+    repaired = repair_maps(len(names), ends, scores, score)
+    made: dict[int, Match] = {}
+    for change in repaired.replacements:
+        if change.kind != "none":
+            pair, composition = whole[change.edge], None if change.path is None else compose(change.path)
+            made[change.edge] = refine_replacement(
+                change, pair.candidates, composition, pair.shapes, config, change.label(names), seed
+            )
+    matches = [made.get(i, pair.match) for i, pair in enumerate(whole)]
+    points = [made[i].target_to_source if i in made else pair.candidates[0][0] for i, pair in enumerate(whole)]
+    named = tuple((names[pair.ends[0]], names[pair.ends[1]]) for pair in (*whole, *parts))
     return Collection(
         names,
-        tuple(store.shapes),
-        pairs,
-        (*(several[0][0] for several in store.candidates), *(points for _, points, _ in parts)),
-        (*store.matches, *(match_ab for _, _, match_ab in parts)),
-        (*result.repaired.probabilities.tolist(), *[float("nan")] * len(parts)),
-        {pairs[change.edge]: change.label(names) or "doubted" for change in result.repaired.replacements},
-        dict(zip(names, result.repaired.chirality.tolist(), strict=True)),
-        result.limit_shapes,
-        pairs[len(store.ends) :],
+        tuple(shapes),
+        named,
+        (*points, *(pair.candidates[0][0] for pair in parts)),
+        (*matches, *(pair.match for pair in parts)),
+        (*repaired.probabilities.tolist(), *[float("nan")] * len(parts)),
+        {named[change.edge]: change.label(names) or "doubted" for change in repaired.replacements},
+        dict(zip(names, repaired.chirality.tolist(), strict=True)),
+        common_bases(repaired, ends, scores, [shape.basis for shape in shapes]),
+        named[len(whole) :],
     )
-
-
-@dataclass(eq=False)
-class _MemoryStore:
-    """A :class:`~kfmaps.collection.consistency.MapStore` of shapes and maps in memory."""
-
-    names: tuple[str, ...]
-    shapes: list[Shape]
-    config: Config
-    seed: int
-    samples: list[ShapeSamples]
-    ends: list[tuple[int, int]] = field(default_factory=list)
-    matches: list[Match | None] = field(default_factory=list)
-    candidates: list[list[StoredMap]] = field(default_factory=list)
-    scores: list[list[ScoredMap]] = field(default_factory=list)
-
-    def match(self, a: int, b: int) -> Match:
-        return match(*self._pair((a, b)), self.config, rng=self.seed, probes=(self.samples[a], self.samples[b]))
-
-    def add(self, ends: tuple[int, int], file: Match, match_ab: Match | None, reversed: bool | None) -> None:
-        """Take the map of a pair, scored."""
-        self.ends.append(ends)
-        self.matches.append(match_ab)
-        self.candidates.append(stored_candidates(file, reversed))
-        with one_blas_thread():
-            self.scores.append(score_stored(file, self._pair(ends), self._samples(ends), reversed))
-
-    def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
-        with one_blas_thread():
-            return [
-                score_candidates([self._along(path)], self._pair(self.ends[i]), self._samples(self.ends[i]))[0]
-                for i, path in asked
-            ]
-
-    def replace(self, replacements: Sequence[Replacement]) -> None:
-        new = []
-        for change in replacements:
-            composition = None if change.path is None else self._along(change.path)
-            shapes, label = self._pair(self.ends[change.edge]), change.label(self.names)
-            candidates = self.candidates[change.edge]
-            made = refine_replacement(change, candidates, composition, shapes, self.config, label, self.seed)
-            new.append((change.edge, made))
-        for edge, made in new:
-            self.matches[edge] = made
-            self.candidates[edge] = [(made.target_to_source, made.orientation == "reversing")]
-
-    def shape(self, number: int) -> Shape:
-        return self.shapes[number]
-
-    def _pair(self, ends: tuple[int, int]) -> tuple[Shape, Shape]:
-        return self.shapes[ends[0]], self.shapes[ends[1]]
-
-    def _samples(self, ends: tuple[int, int]) -> tuple[ShapeSamples, ShapeSamples]:
-        return self.samples[ends[0]], self.samples[ends[1]]
-
-    def _along(self, path: CyclePath) -> StoredMap:
-        steps = []
-        for step in path.steps:
-            basis = None if step.forward else self.shapes[self.ends[step.edge][0]].basis
-            steps.append((self.candidates[step.edge][step.candidate], basis))
-        return compose_path(steps)
 
 
 def _checked_maps(

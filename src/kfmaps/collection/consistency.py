@@ -1,16 +1,14 @@
-"""Make the maps of a collection agree over cycles: one algorithm for maps in memory and in a folder."""
+"""Score, compose and finish the maps of a collection, for maps in memory and in a folder alike."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from kfmaps.collection.differences import ComponentLimitShape, component_limit_shapes
+from kfmaps.collection.differences import LimitShape, component_limit_shapes
 from kfmaps.collection.paths import compose_maps, invert_map
-from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair_maps
+from kfmaps.collection.repair import RepairResult, Replacement
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_pair_maps, with_better_score
 from kfmaps.collection.synchronization import Edge
 from kfmaps.config import Config
@@ -28,56 +26,21 @@ StoredMap = tuple[np.ndarray, bool]
 """A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""
 
 
-class MapStore(Protocol):
-    """Shapes of a collection, by number, with the candidate maps of its pairs."""
+def common_bases(
+    repaired: RepairResult,
+    ends: Sequence[tuple[int, int]],
+    scores: Sequence[Sequence[ScoredMap]],
+    bases: Iterable[Basis],
+) -> tuple[LimitShape, ...]:
+    """Return the common basis of each part of a collection that pairs join, the largest first.
 
-    @property
-    def names(self) -> Sequence[str]: ...
-
-    @property
-    def ends(self) -> Sequence[tuple[int, int]]:
-        """Source and target of each pair."""
-        ...
-
-    @property
-    def scores(self) -> list[list[ScoredMap]]:
-        """The scored candidates of each pair; the first is the one in use."""
-        ...
-
-    def shape(self, number: int) -> Shape:
-        """Return the prepared shape with this number."""
-        ...
-
-    def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
-        """Compose the candidates along paths around pairs, and score the compositions."""
-        ...
-
-    def replace(self, replacements: Sequence[Replacement]) -> None:
-        """Put other maps in the place of those in use."""
-        ...
-
-
-@dataclass(frozen=True, eq=False)
-class Consistency:
-    """Result of :func:`synchronize_store`."""
-
-    repaired: RepairResult  # what was replaced, and how probable all maps are
-    limit_shapes: tuple[ComponentLimitShape, ...]
-    eigenvalues: np.ndarray  # (n, k): of each shape at unit area, as many as the latent maps have rows
-
-
-def synchronize_store(store: MapStore) -> Consistency:
-    """Find which maps of a store are wrong, replace them, and return what the maps in use tell of the shapes.
-
-    ``store``: its maps are replaced.
+    ``ends`` and ``scores``: source, target and scored candidates of each pair, as :func:`repair_maps` takes them;
+    ``bases``: of each shape, at unit area.
     """
-    repaired = repair_maps(len(store.names), store.ends, store.scores, store.compose)
-    store.replace([change for change in repaired.replacements if change.kind != "none"])
-    edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, store.scores, strict=True)]
+    edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(ends, scores, strict=True)]
     k = repaired.sync.latent.shape[1]
-    values = np.stack([store.shape(i).basis.eigenvalues[:k] for i in range(len(store.names))])
     n_latent = 15  # latent functions of a limit shape: the higher ones are truncation more than shape
-    return Consistency(repaired, component_limit_shapes(repaired.sync, edges, values, n_latent), values)
+    return component_limit_shapes(repaired.sync, edges, np.stack([b.eigenvalues[:k] for b in bases]), n_latent)
 
 
 def stored_candidates(file: Match, reversed: bool | None = None) -> list[StoredMap]:

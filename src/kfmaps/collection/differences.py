@@ -24,27 +24,55 @@ from kfmaps.geometry.basis import Basis
 
 @dataclass(frozen=True, eq=False)
 class LimitShape:
-    """A common basis of a collection.
+    """A common basis of shapes that pairs join.
 
     Attributes
     ----------
     maps : (n, k, m) float64
         Of each shape: the coefficients of each latent function in the shape's first ``k`` functions.
     values : (m,) float64
-        Mean eigenvalue of each latent function over the collection, ascending, at unit area.
+        Mean eigenvalue of each latent function over the shapes, ascending, at unit area.
+    eigenvalues : (n, k) float64
+        Of each shape at unit area.
+    members : (n,) int64
+        The shapes' numbers in the collection.
     """
 
     maps: np.ndarray
     values: np.ndarray
+    eigenvalues: np.ndarray
+    members: np.ndarray
 
-    @property
-    def areas(self) -> np.ndarray:
-        """``Y_vᵀ Y_v`` of each shape, (n, m, m); its mean over the shapes is the identity."""
-        return np.swapaxes(self.maps, 1, 2) @ self.maps
+    def operators(self, kind: str = "area") -> np.ndarray:
+        """Return the symmetric matrix of each shape on the latent space, the identity on average, (n, m, m).
+
+        Parameters
+        ----------
+        kind : "area" or "conformal"
+            ``Y_vᵀ Y_v``, or ``Λ^{-1/2} Y_vᵀ Λ_v Y_v Λ^{-1/2}`` with the latent basis' own values and without the
+            constant.
+
+        Raises
+        ------
+        InvalidInput
+            On another kind.
+        """
+        if kind == "area":
+            return np.swapaxes(self.maps, 1, 2) @ self.maps
+        if kind != "conformal":
+            raise refuse("kind", "'area' or 'conformal'", repr(kind), "choose one of them")
+        maps = self.maps[:, :, 1:]
+        inside = np.swapaxes(maps, 1, 2) @ (self.eigenvalues[:, :, None] * maps)
+        roots = np.sqrt(np.maximum(self.values[1:], 1e-9))
+        return inside / (roots[:, None] * roots[None, :])
 
 
 def limit_shape(
-    latent: np.ndarray, maps: Sequence[tuple[int, int, np.ndarray]], eigenvalues: np.ndarray, size: int | None = None
+    latent: np.ndarray,
+    maps: Sequence[tuple[int, int, np.ndarray]],
+    eigenvalues: np.ndarray,
+    size: int | None = None,
+    members: np.ndarray | None = None,
 ) -> LimitShape:
     """Return the canonical latent basis of shapes whose maps agree.
 
@@ -55,32 +83,27 @@ def limit_shape(
     Parameters
     ----------
     latent : (n, k, k)
-        Orthogonal maps of shapes that pairs join, see :class:`~kfmaps.collection.synchronization.SyncResult`.
+        Orthogonal maps of the shapes, see :class:`~kfmaps.collection.synchronization.SyncResult`.
     maps : sequence of (int, int, array)
         Source, target and functional map of the pairs whose map is right, of at least ``k`` functions.
     eigenvalues : (n, k)
         Of each shape at unit area, at least ``k``.
     size : int, optional
-        Latent functions; all by default.
-
-    Returns
-    -------
-    LimitShape
-
-    Raises
-    ------
-    InvalidInput
-        When the eigenvalues do not fit, or there are fewer functions than ``size``.
+        Latent functions at most; all by default.
+    members : (m,) int, optional
+        The shapes that take part; all by default.
     """
-    count, k = latent.shape[:2]
-    values = check(np.asarray(eigenvalues), "eigenvalues", shape=(count, None), finite=True)[:, :k]
-    size = k if size is None else check_count(size, "latent functions", 1, k)
-    around: list[list[tuple[int, np.ndarray]]] = [[] for _ in range(count)]
+    k = latent.shape[1]
+    members = np.arange(len(latent)) if members is None else members
+    values = check(eigenvalues, "eigenvalues", shape=(len(latent), None), finite=True)[members, :k]
+    row = {int(v): i for i, v in enumerate(members)}
+    around: list[list[tuple[int, np.ndarray]]] = [[] for _ in members]
     for source, target, C in maps:
-        around[target].append((source, C[:k, :k]))
-        # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
-        around[source].append((target, np.linalg.pinv(C[:k, :k], rcond=0.2)))
-    Y = _normalised(latent)
+        if source in row:
+            around[row[target]].append((row[source], C[:k, :k]))
+            # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
+            around[row[source]].append((row[target], np.linalg.pinv(C[:k, :k], rcond=0.2)))
+    Y = _normalised(latent[members])
     for _ in range(30):  # iterations of the latent maps
         means = [np.mean([C @ Y[u] for u, C in near], axis=0) if near else Y[v] for v, near in enumerate(around)]
         Y = _normalised((Y + np.stack(means)) / 2)
@@ -89,20 +112,12 @@ def limit_shape(
     means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
     Y = (Y @ functions)[:, :, :size]
     signs = np.where((Y**3).sum(axis=(0, 1)) < 0, -1.0, 1.0)  # each mostly positive in the shapes' own functions
-    return LimitShape(Y * signs, np.maximum(means[:size], 0.0))
-
-
-@dataclass(frozen=True, eq=False)
-class ComponentLimitShape:
-    """Shapes that pairs join, by number, ``members (m,)``, and their common basis, of ``m`` maps."""
-
-    members: np.ndarray
-    limit_shape: LimitShape
+    return LimitShape(Y * signs, np.maximum(means[:size], 0.0), values, members)
 
 
 def component_limit_shapes(
     sync: SyncResult, edges: Sequence[Edge], eigenvalues: np.ndarray, size: int
-) -> tuple[ComponentLimitShape, ...]:
+) -> tuple[LimitShape, ...]:
     """Return the :func:`limit_shape` of each connected component of three shapes or more, the largest first.
 
     Parameters
@@ -115,10 +130,6 @@ def component_limit_shapes(
         Of each shape at unit area.
     size : int
         Latent functions at most.
-
-    Returns
-    -------
-    tuple of ComponentLimitShape
     """
     right_from = 0.5  # probability from which a candidate takes part in the common basis
     maps = [
@@ -127,16 +138,8 @@ def component_limit_shapes(
         if (best := int(chances[:-1].argmax())) < len(edge.candidates) and chances[best] >= right_from
     ]
     numbers, counts = np.unique(sync.component, return_counts=True)
-    found = []
-    for number in numbers[np.argsort(-counts, kind="stable")]:
-        members = np.flatnonzero(sync.component == number)
-        if len(members) < 3:
-            continue
-        place = {int(v): i for i, v in enumerate(members)}
-        own = [(place[a], place[b], C) for a, b, C in maps if a in place]
-        values, k = np.asarray(eigenvalues)[members], sync.latent.shape[1]
-        found.append(ComponentLimitShape(members, limit_shape(sync.latent[members], own, values, min(size, k))))
-    return tuple(found)
+    members = [np.flatnonzero(sync.component == number) for number in numbers[np.argsort(-counts, kind="stable")]]
+    return tuple(limit_shape(sync.latent, maps, eigenvalues, size, own) for own in members if len(own) > 2)
 
 
 def _normalised(maps: np.ndarray) -> np.ndarray:
@@ -144,36 +147,6 @@ def _normalised(maps: np.ndarray) -> np.ndarray:
     areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
     values, functions = np.linalg.eigh(areas)
     return maps @ (functions / np.sqrt(np.maximum(values, 1e-9 * values[-1]))) @ functions.T
-
-
-def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:
-    """Return the symmetric matrix of each shape on the latent space, the identity on average.
-
-    Parameters
-    ----------
-    shape : LimitShape
-    eigenvalues : (n, k)
-        Of each shape, at least as many as the latent maps have rows.
-    kind : "area" or "conformal"
-        ``Y_vᵀ Y_v``, or ``Λ^{-1/2} Y_vᵀ Λ_v Y_v Λ^{-1/2}`` with the latent basis' own values and without the constant.
-
-    Returns
-    -------
-    (n, m, m) float64
-
-    Raises
-    ------
-    InvalidInput
-        On another kind.
-    """
-    if kind == "area":
-        return shape.areas
-    if kind != "conformal":
-        raise refuse("kind", "'area' or 'conformal'", repr(kind), "choose one of them")
-    maps = shape.maps[:, :, 1:]
-    inside = np.swapaxes(maps, 1, 2) @ (np.asarray(eigenvalues)[:, : maps.shape[1], None] * maps)
-    roots = np.sqrt(np.maximum(shape.values[1:], 1e-9))
-    return inside / (roots[:, None] * roots[None, :])
 
 
 def shape_distances(matrices: np.ndarray) -> np.ndarray:
@@ -213,18 +186,9 @@ def components(matrices: np.ndarray, count: int | None = None) -> Components:
     Parameters
     ----------
     matrices : (n, m, d)
-        One of each shape: of :func:`operators`, or aligned landmarks.
+        One of each shape: :meth:`LimitShape.operators`, or aligned landmarks.
     count : int, optional
         Components at most; by default those with a variance above rounding. There are fewer than shapes.
-
-    Returns
-    -------
-    Components
-
-    Raises
-    ------
-    InvalidInput
-        When the matrices are of another shape or not finite.
     """
     check(matrices, "matrices", shape=(None, None, None), finite=True)
     n = len(matrices)
@@ -246,23 +210,12 @@ def components(matrices: np.ndarray, count: int | None = None) -> Components:
 def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:
     """Return how large each shape is at each vertex of one of them, relative to the mean: (n, vertices).
 
-    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With :func:`operators` of
-    the kind "area" it is the density of area, at the resolution of the latent functions; its standard deviation over
+    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With operators of the
+    kind "area" it is the density of area, at the resolution of the latent functions; its standard deviation over
     the shapes tells where they differ.
 
-    Parameters
-    ----------
-    matrices : (n, m, m)
-        See :func:`operators`.
-    shape : LimitShape
-    number : int
-        The shape whose vertices are asked for.
-    basis : Basis
-        Of that shape.
-
-    Returns
-    -------
-    (n, vertices) float64
+    ``matrices (n, m, m)``: :meth:`LimitShape.operators`; ``number``: the shape whose vertices are asked for;
+    ``basis``: of that shape.
     """
     own = shape.maps[number]
     functions = to_numpy(basis.functions)[:, : len(own)]
