@@ -1,5 +1,7 @@
 """Accuracy and speed of geodesic distances: ``python benchmarks/geodesics.py [MESH] [--json PATH]``.
 
+It needs the extra ``bench``.
+
 Without a mesh file a bumpy sphere of 5,000 vertices. The reference is the graph of all straight lines across up to
 24 unfolded edges, which exact polyhedral distances undercut by 0.002 % on average; errors are in per cent of the
 distance, those called near within three mean edge lengths.

@@ -20,7 +20,7 @@ from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.clean import _MAX_SPECK_AREA, clean_mesh, weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import _METHODS, geodesic_distance_pairs, geodesic_distances
+from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
@@ -124,12 +124,8 @@ def test_cut_surfaces_are_the_surface_that_they_look_like(cut) -> None:
     np.testing.assert_allclose(np.bincount(was, other.mass), one.mass, rtol=1e-9)
     np.testing.assert_allclose(other.project(other.functions), np.eye(12), atol=1e-9)
     np.testing.assert_allclose(shot(pieces), shot(mesh)[was], atol=1e-6)
-    for method in _METHODS:
-        np.testing.assert_allclose(
-            geodesic_distances(pieces, [3, 70], method),
-            geodesic_distances(mesh, was[[3, 70]], method)[:, was],
-            rtol=1e-6,
-        )
+    apart = geodesic_distances(mesh, was[[3, 70]])[:, was]
+    np.testing.assert_allclose(geodesic_distances(pieces, [3, 70]), apart, rtol=1e-6)
     copies = np.flatnonzero(was == was[-1])
     assert len(copies) > 1
     assert not geodesic_distance_pairs(pieces, np.repeat(copies[0], len(copies)), copies).any()

@@ -24,7 +24,7 @@ from kfmaps.cli import main as cli
 from kfmaps.cli.main import COMMANDS
 from kfmaps.cli.options import _COMMON, meets
 
-HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "potpourri3d", "distributed")
+HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "distributed")
 
 
 def stubbed(monkeypatch: pytest.MonkeyPatch, raised: BaseException) -> None:

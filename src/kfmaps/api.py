@@ -158,9 +158,7 @@ def transfer(
     return carried(values, as_map(found, mesh), None if mesh is None else mesh.faces, lost)
 
 
-def geodesic_errors(
-    source: ShapeLike | Shape, predicted: MapLike, true: TruthLike | PointMap, method: str = "unfolded"
-) -> np.ndarray:
+def geodesic_errors(source: ShapeLike | Shape, predicted: MapLike, true: TruthLike | PointMap) -> np.ndarray:
     """Return the geodesic distance on the source from each predicted to its true point, divided by √area.
 
     Parameters
@@ -171,8 +169,6 @@ def geodesic_errors(
         are not snapped to vertices.
     true : (q,) whole numbers, PointMap, or a tuple ((q,), (q,)) of whole numbers
         The true source vertex of each target vertex; or corresponding vertices of the source and of the target.
-    method : str
-        As of :func:`kfmaps.geodesic_distances`. It counts for vertices alone.
 
     Returns
     -------
@@ -196,9 +192,9 @@ def geodesic_errors(
         return evaluate.precise_errors(mesh, points, goal)
     known = points >= 0
     if known.all() or known.shape != goal.shape:
-        return evaluate.geodesic_errors(mesh, points, goal, method)
+        return evaluate.geodesic_errors(mesh, points, goal)
     errors = np.full(len(points), np.nan)
-    errors[known] = evaluate.geodesic_errors(mesh, points[known], goal[known], method)
+    errors[known] = evaluate.geodesic_errors(mesh, points[known], goal[known])
     return errors
 
 

@@ -41,7 +41,7 @@ class Evaluation:
     exact: float
 
 
-def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray, method: str = "unfolded") -> np.ndarray:
+def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray) -> np.ndarray:
     """Return the geodesic distance from each predicted to its true vertex, (q,), divided by √area of the source.
 
     Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
@@ -52,8 +52,6 @@ def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray, metho
     source : Mesh
     predicted, true : (q,) int
         Vertices of the source.
-    method : {"unfolded", "dijkstra", "heat"}
-        See :func:`kfmaps.geometry.geodesics.geodesic_distances`.
 
     Raises
     ------
@@ -68,7 +66,7 @@ def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray, metho
     n = len(source.vertices)
     predicted = check_point_map(predicted, n, len(predicted))
     true = check_point_map(true, n, len(true))
-    return geodesic_distance_pairs(source, true, predicted, method=method) / np.sqrt(surface_area(source))
+    return geodesic_distance_pairs(source, true, predicted) / np.sqrt(surface_area(source))
 
 
 def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:

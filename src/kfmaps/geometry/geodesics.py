@@ -1,41 +1,25 @@
-"""Distances along a surface.
+"""Distances along a surface: shortest paths over edges and straight lines across unfolded faces.
 
 Measured against exact polyhedral distances (Mitchell, Mount and Papadimitriou) on remeshed humans of 5,000 vertices,
-one thread; errors in per cent of the distance, "near" within three edge lengths:
-
-===========================  ========  =====  =====  ======
-method                       a source  mean   near   worst
-===========================  ========  =====  =====  ======
-``unfolded`` (depth 4)       0.9 ms    0.26   0.1    3
-``dijkstra`` over edges      0.4 ms    5.1    5.5    36
-``heat``                     0.9 ms    2.1    7      37
-fast marching                3.7 ms    1.7    3.4    24
-===========================  ========  =====  =====  ======
-
-So ``unfolded`` is the default: errors of correspondences are mostly a few edges long, where the heat method, which
-smooths over an edge length, is at its worst. ``benchmarks/geodesics.py`` measures any mesh.
+they are 0.26 % too long on average and 0.1 % within three edge lengths, in 0.9 ms a source. Paths over edges alone are
+5 % too long; the heat method and fast marching are 2 % off and worse nearby, where errors of correspondences mostly
+are. ``benchmarks/geodesics.py`` measures any mesh.
 """
 
 from __future__ import annotations
 
 import numpy as np
-import potpourri3d
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from kfmaps._arrays import check_count, refuse
-from kfmaps.geometry.clean import clean_mesh, weld_vertices
+from kfmaps._arrays import blocks, check_count, refuse
+from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, check_is_mesh
 
-_METHODS = ("unfolded", "dijkstra", "heat")
-
-
 _FULL_SEARCHES = 100  # points that :func:`pairwise_geodesics` searches all of the surface from
-
 _NEARBY = 0.25  # distance at unit area up to which it searches from the others: a fifth of a body
-
 _SEARCHES = 64  # farthest samples whose regions are large enough that a whole search is faster than a spreading front
 
 
@@ -50,49 +34,20 @@ def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:
     return array.astype(np.int64)
 
 
-def _graph(mesh: Mesh, method: str) -> csr_array:
-    if method not in _METHODS:
-        raise refuse("method", f"one of {', '.join(_METHODS)}", repr(method), "choose one of them")
-    return geodesic_graph(mesh) if method == "unfolded" else geodesic_graph(mesh, 0)
-
-
-def _heat(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
-    """Heat-method distances (q, n), infinite on other components."""
-    part = clean_mesh(mesh)
-    _, component = connected_components(geodesic_graph(part.mesh, 0), directed=False)
-    if len(mesh.faces) == 0:
-        solver = potpourri3d.PointCloudHeatSolver(part.mesh.vertices)
-    else:
-        solver = potpourri3d.MeshHeatMethodDistanceSolver(part.mesh.vertices, part.mesh.faces)
-    distances = np.full((len(sources), len(mesh.vertices)), np.inf)
-    used = ~part.unreferenced
-    for row, source in zip(distances, sources, strict=True):
-        if used[source]:
-            here = part.to_clean[source]
-            found = solver.compute_distance(int(here))
-            found[component != component[here]] = np.inf
-            found[here] = 0
-            row[used] = found[part.to_clean[used]]
-        row[source] = 0
-    return distances
-
-
-def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded") -> np.ndarray:
+def geodesic_distances(mesh: Mesh, sources: ArrayLike) -> np.ndarray:
     """Return distances along the surface from each source to every vertex.
+
+    They are lengths of shortest paths over edges and straight lines across up to four unfolded edges
+    (:func:`~kfmaps.geometry.geodesic_graph.geodesic_graph`): never shorter than the geodesic, symmetric, and with the
+    triangle inequality.
 
     Parameters
     ----------
     mesh : Mesh
         Any triangles: boundaries, several components, branching edges and unused vertices do no harm. On a point cloud
-        the first two methods run on the graph of nearest neighbours (4 to 7 % error on humans, more where limbs touch),
-        ``"heat"`` on the cloud's own Laplacian.
+        paths run along nearest neighbours (4 to 7 % error on humans, more where limbs touch).
     sources : (q,) int
         Vertex numbers.
-    method : {"unfolded", "dijkstra", "heat"}
-        ``"unfolded"``: shortest paths over edges and straight lines across up to four unfolded edges
-        (:func:`~kfmaps.geometry.geodesic_graph.geodesic_graph`). ``"dijkstra"``: over edges alone. Both are never
-        shorter than the geodesic, symmetric, and obey the triangle inequality. ``"heat"``: Crane, Weischedel and
-        Wardetzky, Geodesics in heat (2013), which does neither.
 
     Returns
     -------
@@ -102,33 +57,27 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
     Raises
     ------
     InvalidInput
-        On a vertex number out of range or an unknown method.
+        On a vertex number out of range.
     """
     check_is_mesh(mesh)
     sources = _indices(sources, len(mesh.vertices), "sources")
-    graph = _graph(mesh, method)
     if len(sources) == 0:
         return np.zeros((0, len(mesh.vertices)))
-    if method == "heat":
-        return _heat(mesh, sources)
     first = weld_vertices(mesh)
-    distances = dijkstra(graph, indices=first[sources])
+    distances = dijkstra(geodesic_graph(mesh), indices=first[sources])
     return distances if (first == np.arange(len(first))).all() else distances[:, first]
 
 
-def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded") -> np.ndarray:
+def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Return the distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, in the mesh's own unit.
 
-    No n × n matrix is held: sources are taken in blocks, each searched only as far as its pairs need, so that five
-    thousand near pairs on five thousand vertices take less than a second.
+    No n × n matrix is held: five thousand near pairs on five thousand vertices take less than a second.
 
     Parameters
     ----------
     mesh : Mesh
     a, b : (q,) int
         Vertex numbers.
-    method : {"unfolded", "dijkstra", "heat"}
-        As for :func:`geodesic_distances`.
 
     Returns
     -------
@@ -138,49 +87,40 @@ def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str 
     Raises
     ------
     InvalidInput
-        On lists of different length, a vertex number out of range or an unknown method.
+        On lists of different length or a vertex number out of range.
     """
     n = len(mesh.vertices)
     a, b = _indices(a, n, "a"), _indices(b, n, "b")
     if len(a) != len(b):
         raise refuse("a and b", "lists of equal length", f"{len(a)} and {len(b)}", "give one pair per entry")
     first = weld_vertices(mesh)
-    a, b = first[a], first[b]
-    graph = _graph(mesh, method)
+    straight = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
+    return shortest_paths(geodesic_graph(mesh), first[a], first[b], straight)
+
+
+def shortest_paths(graph: csr_array, a: np.ndarray, b: np.ndarray, straight: np.ndarray) -> np.ndarray:
+    """Return the lengths (q,) of the shortest paths from node ``a[i]`` to node ``b[i]``; infinite between components.
+
+    Each is searched only as far as it needs.
+
+    ``graph (n, n)``: sparse and symmetric; ``straight (q,)``: straight lines from one node to the other, which bound
+    the paths from below; most paths are not much longer.
+    """
     _, component = connected_components(graph, directed=False)
     result = np.where(a == b, 0.0, np.inf)
-    open_pairs = np.flatnonzero((a != b) & (component[a] == component[b]))
-    # The straight line bounds the distance from below; most distances are not far above it.
-    straight = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
+    left = np.flatnonzero((a != b) & (component[a] == component[b]))
     shortest_edge = graph.data.mean() if graph.nnz else 0.0
     reach = 1.3 * straight + shortest_edge
     for attempt in range(4):
-        limited = attempt < 3 and method != "heat"
-        for pairs in _blocks(open_pairs, a, reach):
-            sources, row = np.unique(a[pairs], return_inverse=True)
-            if method == "heat":
-                distances = _heat(mesh, sources)
-            else:
-                limit = reach[pairs].max() if limited else np.inf
-                distances = dijkstra(graph, indices=sources, limit=limit)
-            result[pairs] = distances[row, b[pairs]]
-        open_pairs = open_pairs[np.isinf(result[open_pairs])]
+        left = left[np.argsort(reach[left], kind="stable")]
+        for part in blocks(len(left), 64):  # which bounds the memory
+            rows = left[part]
+            sources, row = np.unique(a[rows], return_inverse=True)
+            limit = reach[rows].max() if attempt < 3 else np.inf
+            result[rows] = dijkstra(graph, indices=sources, limit=limit)[row, b[rows]]
+        left = left[np.isinf(result[left])]
         reach = 2.5 * reach
     return result
-
-
-def _blocks(pairs: np.ndarray, a: np.ndarray, reach: np.ndarray) -> list[np.ndarray]:
-    """``pairs`` in groups of 64 sources that need to be searched about equally far."""
-    if len(pairs) == 0:
-        return []
-    sources, row = np.unique(a[pairs], return_inverse=True)
-    far = np.zeros(len(sources))
-    np.maximum.at(far, row, reach[pairs])
-    rank = np.empty(len(sources), dtype=np.int64)
-    rank[np.argsort(far, kind="stable")] = np.arange(len(sources))
-    group = rank[row] // 64  # which bounds the memory
-    order = np.argsort(group, kind="stable")
-    return np.split(pairs[order], np.flatnonzero(np.diff(group[order])) + 1)
 
 
 def pairwise_geodesics(graph: csr_array, points: np.ndarray) -> np.ndarray:

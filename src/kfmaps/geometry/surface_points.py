@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import connected_components, dijkstra
 
-from kfmaps._arrays import blocks, check, refuse
+from kfmaps._arrays import check, refuse
 from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.geodesic_graph import (
@@ -18,6 +17,7 @@ from kfmaps.geometry.geodesic_graph import (
     _Windows,
     geodesic_graph,
 )
+from kfmaps.geometry.geodesics import shortest_paths
 from kfmaps.geometry.mesh import Mesh, unit_rows
 
 _VERTEX_EDGES = 4  # edges that a straight line from a point to a vertex may cross
@@ -68,7 +68,8 @@ def surface_point_distances(
                 near = np.minimum(_nearest(windows), np.inf)
                 windows = windows[near < 1.5 * _limit(straight, places)[windows.source]]
     graph = _joined(geodesic_graph(mesh), links, n + 2 * q)
-    return np.minimum(straight, _over_vertices(graph, n, q, np.linalg.norm(places[0] - places[1], axis=1)))
+    here, apart = n + np.arange(q), np.linalg.norm(places[0] - places[1], axis=1)
+    return np.minimum(straight, shortest_paths(graph, here, here + q, apart))
 
 
 def _checked(name: str, chosen: np.ndarray, weights: np.ndarray, q: int, n_faces: int) -> tuple[np.ndarray, np.ndarray]:
@@ -158,22 +159,3 @@ def _joined(graph: csr_array, links: list[tuple[np.ndarray, np.ndarray, np.ndarr
     rows, columns, lengths = rows[keep], columns[keep], np.maximum(lengths[keep], np.finfo(float).tiny)
     ends = np.concatenate([edges.row, rows, columns]), np.concatenate([edges.col, columns, rows])
     return csr_array((np.concatenate([edges.data, lengths, lengths]), ends), shape=(size, size))
-
-
-def _over_vertices(graph: csr_array, n: int, q: int, apart: np.ndarray) -> np.ndarray:
-    """Shortest paths from node ``n + i`` to ``n + q + i``, (q,), each searched only as far as it needs."""
-    _, component = connected_components(graph, directed=False)
-    result = np.full(q, np.inf)
-    left = np.flatnonzero(component[n : n + q] == component[n + q : n + 2 * q])
-    edge = graph.data[: graph.indptr[n]].mean() if graph.indptr[n] else 0.0
-    reach = 1.3 * apart + edge
-    for attempt in range(4):
-        left = left[np.argsort(reach[left], kind="stable")]
-        for part in blocks(len(left), 64):  # which bounds the memory
-            rows = left[part]
-            limit = reach[rows].max() if attempt < 3 else np.inf
-            found = dijkstra(graph, indices=n + rows, limit=limit)
-            result[rows] = found[np.arange(len(rows)), n + q + rows]
-        left = left[np.isinf(result[left])]
-        reach = 2.5 * reach
-    return result
