@@ -9,11 +9,11 @@ import pytest
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.io import read_mesh, write_mesh
+from kfmaps.io import MeshFile, read_mesh, write_mesh
 from kfmaps.io.off import format_off
 
 MESH = fibonacci_sphere(20)
-OFF = format_off(MESH)
+OFF = format_off(MeshFile(MESH))
 
 
 def refused(path: Path, content: bytes | None = None) -> str:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import read_mesh
+from kfmaps.io import MeshFile, read_mesh
 from kfmaps.io.meshes import READERS
 from kfmaps.io.obj import format_obj
 from kfmaps.io.off import format_off
@@ -23,11 +23,11 @@ from kfmaps.io.ply import format_ply
 MESH = fibonacci_sphere(20)
 HEADER = "ply\nformat {}\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
 HEADER += "element face {}\nproperty list uchar int vertex_indices\nend_header\n"
-OFF_LINES = format_off(MESH).split(b"\n", 2)[2]
+OFF_LINES = format_off(MeshFile(MESH)).split(b"\n", 2)[2]
 CONTENTS = {
-    ".off": format_off(MESH),
-    ".obj": format_obj(MESH),
-    ".ply": format_ply(MESH),
+    ".off": format_off(MeshFile(MESH)),
+    ".obj": format_obj(MeshFile(MESH)),
+    ".ply": format_ply(MeshFile(MESH)),
     ".text.ply": HEADER.format("ascii 1.0", len(MESH.vertices), len(MESH.faces)).encode() + OFF_LINES,
 }
 

@@ -223,8 +223,8 @@ def test_round_trip_keeps_every_bit(places: np.ndarray, seed: int) -> None:
     mesh = Mesh(places, rng.integers(0, len(places), (rng.integers(1, 20), 3)))
     colors = rng.integers(0, 256, places.shape) / 255
     for write, read in ((format_off, parse_off), (format_obj, parse_obj), (format_ply, parse_ply)):
-        same(read(write(mesh), "a"), mesh.vertices, mesh.faces.tolist())
-        found = same(read(write(mesh, colors), "a"), mesh.vertices, mesh.faces.tolist())
+        same(read(write(MeshFile(mesh)), "a"), mesh.vertices, mesh.faces.tolist())
+        found = same(read(write(MeshFile(mesh, colors)), "a"), mesh.vertices, mesh.faces.tolist())
         close(found.colors, colors)
 
 
@@ -284,8 +284,8 @@ def test_each_oddity_is_named(tmp_path: Path, places: np.ndarray, faces: list, t
 def test_ply_headers_of_any_line_ends_before_a_binary_body(tmp_path: Path, line_ends: tuple[str, str]) -> None:
     """Some programs write the header as text of their system and the body, or a comment, as it stands."""
     first, then = line_ends
-    head = format_ply(SHAPE).partition(b"end_header\n")[0].replace(b"\n", first.encode())
-    body = format_ply(SHAPE).partition(b"end_header\n")[2]
+    head = format_ply(MeshFile(SHAPE)).partition(b"end_header\n")[0].replace(b"\n", first.encode())
+    body = format_ply(MeshFile(SHAPE)).partition(b"end_header\n")[2]
     comment = b"comment made by a program" + then.encode()
     at = head.index(b"element vertex")
     (tmp_path / "a.ply").write_bytes(head[:at] + comment + head[at:] + b"end_header" + then.encode() + body)
@@ -321,7 +321,7 @@ def test_a_vertex_without_a_position_is_put_between_its_neighbours(tmp_path: Pat
     places = mesh.vertices.copy()
     places[7] = np.nan
     write = tmp_path / "scan.ply"
-    write.write_bytes(format_ply(Mesh(places, mesh.faces)))
+    write.write_bytes(format_ply(MeshFile(Mesh(places, mesh.faces))))
     with pytest.warns(KfmapsWarning, match=r"1 vertex has no position \(NaN\)"):
         read = read_mesh(write)
     around = np.setdiff1d(mesh.faces[(mesh.faces == 7).any(axis=1)], [7])
@@ -329,6 +329,6 @@ def test_a_vertex_without_a_position_is_put_between_its_neighbours(tmp_path: Pat
     rest = np.arange(len(places)) != 7
     np.testing.assert_array_equal(read.vertices[rest], mesh.vertices[rest])
     places[8:10] = np.nan  # more than one in a thousand
-    write.write_bytes(format_ply(Mesh(places, mesh.faces)))
+    write.write_bytes(format_ply(MeshFile(Mesh(places, mesh.faces))))
     with pytest.raises(InvalidInput, match="9 NaN or infinite"):
         read_mesh(write)

@@ -17,7 +17,7 @@ from kfmaps.io.character import transfer_character
 from kfmaps.io.glb import format_glb
 from kfmaps.io.mapcontent import check_map
 from kfmaps.io.meshes import write_mesh
-from kfmaps.io.obj import format_obj
+from kfmaps.io.obj import MATERIAL, format_obj
 from kfmaps.io.partial_map import point_map, precise_points
 from kfmaps.io.record import MeshFile, Picture
 from kfmaps.io.text import check_suffix
@@ -141,8 +141,8 @@ def _write_obj(path: Path, made: MeshFile, suffix: str | None, force: bool) -> l
     """Write an OBJ file with its MTL and picture beside it; return their names."""
     assert made.picture is not None
     material, beside = path.with_suffix(".mtl"), path.with_suffix(suffix or made.picture.suffix)
-    content = format_obj(made.mesh, uv=made.uv, uv_faces=made.uv_faces, material=(material.name, "carried"))
-    lines = ["newmtl carried", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {beside.name}", ""]
+    content = format_obj(replace(made, colors=None), material.name)
+    lines = [f"newmtl {MATERIAL}", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {beside.name}", ""]
     with ExitStack() as files:  # renamed in reverse order, the OBJ file that names the others last
         files.enter_context(atomic_output(path, force)).write_bytes(content)
         files.enter_context(atomic_output(material, force)).write_text("\n".join(lines), encoding="utf-8")

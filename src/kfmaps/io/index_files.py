@@ -12,30 +12,25 @@ from kfmaps.io.atomic import write_text
 from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes, whole_numbers
 
 
-def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, lost: bool = False) -> np.ndarray:
-    """The whole numbers of a text file, (rows, columns) int64, made 0-based; a −1 stays where ``lost`` allows it."""
+def _read_numbers(path: str | Path, columns: int, first: int, wanted: str, lost: bool = False) -> np.ndarray:
+    """The whole numbers of a text file, (rows, columns) int64, less ``first``; a −1 stays where ``lost`` allows it."""
     name = str(path)
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
         raise refuse(name, wanted, "no numbers", "check that it is the right file")
     numbers = whole_numbers(as_table(rows, columns, name, wanted), name)
-    low = int(one_based)
     gone = (numbers == -1) & lost
-    small = np.flatnonzero(((numbers < low) & ~gone).any(axis=1))
+    small = np.flatnonzero(((numbers < first) & ~gone).any(axis=1))
     if len(small):
         got = " ".join(map(str, numbers[small[0]]))
-        habit = "are they counted from 0?" if one_based else "are they counted from 1?"
-        remedy = f"check the numbers; {habit}" if low and numbers.min() == 0 else "check the numbers"
-        raise refuse(f"{name}, line {rows.lines[small[0]]}", f"vertex numbers from {low} on", got, remedy)
-    return np.where(gone, -1, numbers - low)
+        remedy = "check the numbers" + ("; are they counted from 0?" if numbers.min() == 0 else "")
+        raise refuse(f"{name}, line {rows.lines[small[0]]}", f"vertex numbers from {first} on", got, remedy)
+    return np.where(gone, -1, numbers - first)
 
 
-_FROM_ZERO = b"# source target, counted from 0"
-
-
-def _counts_from_one(path: str | Path) -> bool:
-    """Whether a file's format counts vertices from 1: that of the remeshed benchmarks does."""
-    return Path(path).suffix.lower() == ".vts"
+def _first_number(path: str | Path) -> int:
+    """From where a file's format counts vertices: that of the remeshed benchmarks from 1."""
+    return int(Path(path).suffix.lower() == ".vts")
 
 
 def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.ndarray:
@@ -45,8 +40,7 @@ def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.nda
     ----------
     path : str or Path
     one_based : bool, optional
-        Whether the file counts vertices from 1; by default only a ``.vts`` file does, unless its first line says
-        that it counts from 0.
+        Whether the file counts vertices from 1; by default only a ``.vts`` file does.
 
     Returns
     -------
@@ -58,9 +52,8 @@ def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.nda
     InvalidInput
         On a file that is missing, empty, or has a line of anything else.
     """
-    if one_based is None:
-        one_based = _counts_from_one(path) and not read_bytes(path).startswith(_FROM_ZERO)
-    return _read_numbers(path, 2, one_based, "two whole numbers a line, source and target")
+    first = _first_number(path) if one_based is None else int(one_based)
+    return _read_numbers(path, 2, first, "two whole numbers a line, source and target")
 
 
 def read_landmark_names(path: str | Path) -> list[str]:
@@ -74,35 +67,27 @@ def _printable(text: str) -> str:
     return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
 
 
-def write_landmarks(
-    path: str | Path,
-    pairs: np.ndarray,
-    *,
-    names: Sequence[str] = (),
-    one_based: bool | None = None,
-    force: bool = False,
-) -> None:
+def write_landmarks(path: str | Path, pairs: np.ndarray, *, names: Sequence[str] = (), force: bool = False) -> None:
     """Write landmark pairs so that :func:`read_landmarks` reads them back.
 
     Parameters
     ----------
     path : str or Path
+        The vertices of a ``.vts`` file are counted from 1, those of any other from 0.
     pairs : (l, 2) int
         0-based, "source, target".
     names : sequence of str
         One for each pair, or none; they stand behind ``#`` on the pairs' lines.
-    one_based : bool, optional
-        Whether the file counts from 1; by default only a ``.vts`` file does.
     force : bool
         Whether an existing file is replaced.
     """
-    one_based = _counts_from_one(path) if one_based is None else one_based
+    first = _first_number(path)
     pairs = check(np.asarray(pairs), "landmarks", shape=(None, 2), remedy="give one row source, target each")
     if len(names) not in (0, len(pairs)):
         raise refuse("names", f"{len(pairs)}, one for each pair", str(len(names)), "give one for each, or none")
-    lines = [f"# source target, counted from {int(one_based)}"]
+    lines = [f"# source target, counted from {first}"]
     named = [_printable(name) for name in names] or [""] * len(pairs)
-    for (s, t), name in zip((pairs.astype(np.int64) + int(one_based)).tolist(), named, strict=True):
+    for (s, t), name in zip((pairs.astype(np.int64) + first).tolist(), named, strict=True):
         lines.append(f"{s} {t}  # {name}" if name else f"{s} {t}")
     write_text(path, "\n".join(lines) + "\n", force)
 
@@ -114,7 +99,7 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost
     ----------
     path : str or Path
     one_based : bool, optional
-        Whether the file counts vertices from 1; by default only a ``.vts`` file does.
+        As in :func:`read_landmarks`.
     lost : bool
         Whether −1 may stand for no vertex.
 
@@ -128,27 +113,22 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost
     InvalidInput
         On a file that is missing, empty, or has a line of anything else.
     """
-    one_based = _counts_from_one(path) if one_based is None else one_based
-    return _read_numbers(path, 1, one_based, "one whole number a line", lost)[:, 0]
+    first = _first_number(path) if one_based is None else int(one_based)
+    return _read_numbers(path, 1, first, "one whole number a line", lost)[:, 0]
 
 
-def write_vertex_numbers(
-    path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
-) -> None:
+def write_vertex_numbers(path: str | Path, numbers: np.ndarray, *, force: bool = False) -> None:
     """Write vertex numbers so that :func:`read_vertex_numbers` reads them back.
 
     Parameters
     ----------
     path : str or Path
+        As in :func:`write_landmarks`.
     numbers : (m,) int
         0-based; −1 stays.
-    one_based : bool, optional
-        Whether the file counts from 1; by default only a ``.vts`` file does.
     force : bool
         Whether an existing file is replaced.
     """
-    one_based = _counts_from_one(path) if one_based is None else one_based
-    numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
-    numbers = numbers.astype(np.int64)
-    lines = map(str, np.where(numbers == -1, -1, numbers + int(one_based)).tolist())
+    numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list").astype(np.int64)
+    lines = map(str, np.where(numbers == -1, -1, numbers + _first_number(path)).tolist())
     write_text(path, "\n".join(lines) + "\n", force)

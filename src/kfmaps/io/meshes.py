@@ -12,7 +12,7 @@ from kfmaps._arrays import KfmapsWarning, check, refuse, shown
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.geometry.topology import topology
-from kfmaps.io.atomic import check_output, write_bytes
+from kfmaps.io.atomic import write_bytes
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.obj import format_obj, parse_obj
@@ -45,12 +45,7 @@ READERS = {
     ".gltf": parse_gltf,
     ".xyz": _parse_xyz,
 }
-_WRITERS = {
-    ".off": format_off,
-    ".obj": format_obj,
-    ".ply": format_ply,
-    ".glb": lambda *parts: format_glb(MeshFile(*parts)),
-}
+_WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
 
 _MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
@@ -179,5 +174,5 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
     """
     check_is_mesh(mesh)
     writer = _WRITERS[check_suffix(path, _WRITERS, "output", "choose one of these")]
-    check_output(path, force)
-    write_bytes(path, writer(mesh, None if colors is None else checked_colors(colors, len(mesh.vertices))), force)
+    given = None if colors is None else checked_colors(colors, len(mesh.vertices))
+    write_bytes(path, writer(MeshFile(mesh, given)), force)

@@ -32,6 +32,9 @@ _SKIPPED = frozenset(
 )
 """Words of the format that say nothing about a polygon mesh."""
 
+MATERIAL = "carried"
+"""Name of the material in the files that are written."""
+
 _OTHER, _V, _VT, _VN, _F = range(5)
 
 
@@ -225,27 +228,20 @@ def _file(address: str, name: str) -> Path | None:
     return path if path is not None and path.is_file() and path.stat().st_size else None
 
 
-def format_obj(
-    mesh: Mesh,
-    colors: np.ndarray | None = None,
-    *,
-    uv: np.ndarray | None = None,
-    uv_faces: np.ndarray | None = None,
-    material: tuple[str, str] | None = None,
-) -> bytes:
-    """Write ``mesh`` as OBJ; every digit of the coordinates is kept.
+def format_obj(shape: MeshFile, material: str = "") -> bytes:
+    """Write a mesh with its colours and texture coordinates as OBJ; every digit is kept.
 
-    ``colors (n, 3)``: fractions from 0 to 1, written after the coordinates as many programs read them; ``uv (m, 2)``:
-    texture coordinates, with ``uv_faces`` (f, 3); ``material (file, name)``: the MTL file and the material in it that
-    the faces use.
+    Colours stand after the coordinates, as many programs read them. ``material``: the name of an MTL file, whose one
+    material, :data:`MATERIAL`, all faces use.
     """
-    lines = [f"mtllib {material[0]}"] if material else []
-    values = mesh.vertices if colors is None else np.hstack([mesh.vertices, colors])
+    mesh, uv, uv_faces = shape.mesh, shape.uv, shape.uv_faces
+    lines = [f"mtllib {material}"] if material else []
+    values = mesh.vertices if shape.colors is None else np.hstack([mesh.vertices, shape.colors])
     lines += ["v " + " ".join(map(repr, row)) for row in values.tolist()]
     if uv is not None:
         lines += [f"vt {u!r} {v!r}" for u, v in uv.tolist()]
     if material:
-        lines.append(f"usemtl {material[1]}")
+        lines.append(f"usemtl {MATERIAL}")
     faces = (mesh.faces + 1).tolist()
     if uv is None or uv_faces is None:
         lines += [f"f {a} {b} {c}" for a, b, c in faces]

@@ -64,12 +64,13 @@ def _faces(rows: Rows, name: str) -> np.ndarray:
     return whole_numbers(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
 
 
-def format_off(mesh: Mesh, colors: np.ndarray | None = None) -> bytes:
-    """Write ``mesh`` as OFF, or as COFF with 0-255 ``colors`` (n, 3); every digit of the coordinates is kept."""
-    lines = [f"{x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
-    if colors is not None:
-        tints = (f" {r} {g} {b} 255" for r, g, b in bytes_of(colors).tolist())
+def format_off(shape: MeshFile) -> bytes:
+    """Write a mesh as OFF, or as COFF with its colours as bytes; every digit of the coordinates is kept."""
+    vertices, faces = shape.mesh.vertices, shape.mesh.faces
+    lines = [f"{x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
+    if shape.colors is not None:
+        tints = (f" {r} {g} {b} 255" for r, g, b in bytes_of(shape.colors).tolist())
         lines = [line + tint for line, tint in zip(lines, tints, strict=True)]
-    lines += [f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist()]
-    head = f"{'OFF' if colors is None else 'COFF'}\n{len(mesh.vertices)} {len(mesh.faces)} 0\n"
+    lines += [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]
+    head = f"{'OFF' if shape.colors is None else 'COFF'}\n{len(vertices)} {len(faces)} 0\n"
     return (head + "\n".join(lines) + "\n").encode("ascii")

@@ -275,21 +275,20 @@ def _colors(vertex: dict[str, _Column], names: tuple[str, ...]) -> np.ndarray:
     return unit_colors(columns.astype(np.float64))
 
 
-def format_ply(mesh: Mesh, colors: np.ndarray | None = None) -> bytes:
-    """Write ``mesh`` as binary PLY, coordinates in double precision, ``colors`` (n, 3) as bytes."""
-    layout = [("x", "<f8"), ("y", "<f8"), ("z", "<f8")]
+def format_ply(shape: MeshFile) -> bytes:
+    """Write a mesh as binary PLY, coordinates in double precision, colours as bytes."""
+    mesh, columns = (
+        shape.mesh,
+        [(axis, "<f8", "double", x) for axis, x in zip("xyz", shape.mesh.vertices.T, strict=True)],
+    )
+    if shape.colors is not None:
+        columns += [(tint, "u1", "uchar", x) for tint, x in zip(_COLORS[0], bytes_of(shape.colors).T, strict=True)]
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
-    header += [f"property double {axis}" for axis in "xyz"]
-    if colors is not None:
-        layout += [("red", "u1"), ("green", "u1"), ("blue", "u1")]
-        header += [f"property uchar {tint}" for tint in ("red", "green", "blue")]
+    header += [f"property {kind} {title}" for title, _, kind, _ in columns]
     header += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]
-    vertices = np.zeros(len(mesh.vertices), dtype=layout)
-    for axis, values in zip("xyz", mesh.vertices.T, strict=True):
-        vertices[axis] = values
-    if colors is not None:
-        for tint, values in zip(("red", "green", "blue"), bytes_of(colors).T, strict=True):
-            vertices[tint] = values
+    vertices = np.zeros(len(mesh.vertices), dtype=[(title, code) for title, code, _, _ in columns])
+    for title, _, _, values in columns:
+        vertices[title] = values
     faces = np.zeros(len(mesh.faces), dtype=[("size", "u1"), ("corners", "<i4", (3,))])
     faces["size"] = 3
     faces["corners"] = mesh.faces

@@ -11,7 +11,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps._records import short_repr
-from kfmaps.io.atomic import atomic_output, check_output, csv_text, write_text
+from kfmaps.io.atomic import atomic_output, csv_text, write_text
 from kfmaps.io.mapfile import check_npy
 from kfmaps.io.text import (
     REPAIR,
@@ -50,11 +50,10 @@ class Values:
 
 
 def read_values(path: str | Path) -> Values:
-    """Read per-vertex values from ``path``: ``.npy``, ``.csv`` or ``.txt``.
+    """Read per-vertex values from ``path``: ``.npy``, ``.csv`` or ``.txt``; tables of numbers or of texts throughout.
 
-    In a ``.csv`` file a first row of names is recognised above numbers. A ``.txt`` file has a vertex a line,
-    numbers between blanks, or one label; lines that begin with ``#`` are comments. Tables are numbers
-    throughout or texts throughout.
+    In a ``.csv`` file a first row of names is recognised above numbers. A ``.txt`` file has a vertex a line, numbers
+    between blanks, or one label; lines that begin with ``#`` are comments.
 
     Raises
     ------
@@ -68,31 +67,28 @@ def read_values(path: str | Path) -> Values:
     if suffix == ".csv":
         table = read_csv(path)
         titled = len(table) > 1 and not any(map(is_number, table[0][1])) and all(map(is_number, table[1][1]))
-        columns = tuple(table[0][1]) if titled else None
-        array = _table(table[titled:], str(path))
-        return Values(array[:, 0] if array.shape[1] == 1 else array, columns)
+        return Values(_table(table[titled:], str(path)), tuple(table[0][1]) if titled else None)
     lines = [(i, line.strip()) for i, line in enumerate(read_text(path).splitlines(), 1)]
     lines = [(i, line) for i, line in lines if line and not line.startswith("#")]
     rows = [(i, line.split()) for i, line in lines]
     if rows and not any(all(map(is_number, row)) for _, row in rows):
         return Values(_texts([line for _, line in lines], str(path)))
-    array = _table(rows, str(path))
-    return Values(array[:, 0] if array.shape[1] == 1 else array)
+    return Values(_table(rows, str(path)))
 
 
 def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
-    """The cells as a (rows, columns) array of numbers, or of texts when no row is all numbers."""
+    """The cells as a (rows, columns) array, of one column (rows,), of numbers, or of texts when no row is all numbers."""
     if not rows:
         raise refuse(name, "a row for each source vertex", "none", "check that it is the right file")
     at, cells = np.array([line for line, _ in rows]), [row for _, row in rows]
-    width, numeric = len(cells[0]), np.array([all(map(is_number, row)) for row in cells])
-    odd = np.array([len(row) != width for row in cells])
-    check_lines(odd, at, name, f"{width} values as before", lambda i: str(len(cells[i])))
+    width, widths = len(cells[0]), np.array(list(map(len, cells)))
+    check_lines(widths != width, at, name, f"{width} values as before", lambda i: str(widths[i]))
+    numeric = np.array([all(map(is_number, row)) for row in cells])
     wanted, got = ("numbers", "text") if numeric[0] else ("text", "numbers")
     check_lines(numeric != numeric[0], at, name, f"{wanted} as before", lambda _: got)
     flat = [cell for row in cells for cell in row]
-    texts = _texts(flat, name).reshape(len(cells), width)
-    kind = _kind(flat) if numeric[0] else None
+    texts, kind = _texts(flat, name), _kind(flat) if numeric[0] else None
+    texts = texts if width == 1 else texts.reshape(len(cells), width)
     with np.errstate(over="ignore"):  # 1e999 is infinity
         return texts if kind is None else texts.astype(kind)
 
@@ -108,17 +104,14 @@ def _texts(cells: list[str], name: str) -> np.ndarray:
 
 def _kind(cells: list[str]) -> type | None:
     """The type that keeps every digit of whole numbers; ``None`` where none does, and they must stay texts."""
-    integral = all(_WHOLE.fullmatch(cell) for cell in cells)
-    long = [cell for cell in cells if len(cell) > 15 and _WHOLE.fullmatch(cell)]
-    if max(map(len, long), default=0) > 400:
+    whole = [cell for cell in cells if _WHOLE.fullmatch(cell)]
+    if max(map(len, whole), default=0) > 400:  # more digits than any float, and than Python reads
         return None
-    if not integral:
-        return np.float64 if all(int(cell) == float(cell) for cell in long) else None
-    low, high = min(map(int, long), default=0), max(map(int, long), default=0)
-    if low >= -(2**63) and high < 2**63:
-        return np.int64
-    shortest = min(map(int, cells))
-    return np.uint64 if shortest >= 0 and high < 2**64 else None
+    numbers = [int(cell) for cell in whole]
+    if len(whole) < len(cells):
+        return np.float64 if all(number == float(number) for number in numbers) else None
+    limits = ((kind, np.iinfo(kind)) for kind in (np.int64, np.uint64))
+    return next((kind for kind, of in limits if of.min <= min(numbers) and max(numbers) <= of.max), None)
 
 
 def _npy(data: bytes, name: str) -> np.ndarray:
@@ -147,9 +140,7 @@ def write_values(path: str | Path, values: Values, force: bool = False) -> None:
     InvalidInput
         On an unknown extension, more than two dimensions in a text format, and as :func:`atomic_output`.
     """
-    suffix = check_suffix(path, _FORMATS, "values", _RENAME)
-    check_output(path, force)
-    array = values.array
+    suffix, array = check_suffix(path, _FORMATS, "values", _RENAME), values.array
     if suffix == ".npy":
         with atomic_output(path, force) as temporary, open(temporary, "wb") as file:
             np.save(file, array, allow_pickle=False)
@@ -158,8 +149,7 @@ def write_values(path: str | Path, values: Values, force: bool = False) -> None:
         got = "complex numbers" if array.dtype.kind == "c" else f"shape {array.shape}"
         raise refuse(f"output {path}", "a table of real numbers or texts", got, "write .npy instead")
     numbers = array.astype(np.int64) if array.dtype.kind == "b" else array
-    rows = (numbers[:, None] if array.ndim == 1 else numbers).tolist()
-    cells = [[cell if isinstance(cell, str) else repr(cell) for cell in row] for row in rows]
+    cells = [list(map(str, row)) for row in (numbers[:, None] if array.ndim == 1 else numbers).tolist()]
     if suffix == ".csv":
         text = csv_text([list(values.columns), *cells] if values.columns else cells)
     else:
