@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,7 @@ from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
 from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 
-@dataclass(frozen=True)
-class _Property:
+class _Property(NamedTuple):
     """A column: a number, or a list when ``count`` is given. The two are NumPy types with byte order."""
 
     name: str
@@ -22,17 +21,15 @@ class _Property:
     count: np.dtype | None = None
 
 
-@dataclass(frozen=True)
-class _Element:
+class _Element(NamedTuple):
     """A table of ``rows`` rows."""
 
     name: str
     rows: int
-    properties: tuple[_Property, ...]
+    properties: dict[str, _Property]
 
 
-@dataclass(frozen=True, eq=False)
-class _Column:
+class _Column(NamedTuple):
     """The values of one property, those of lists one after another; ``sizes`` (rows,) are their lengths."""
 
     values: np.ndarray
@@ -53,7 +50,7 @@ def _text_columns(element: _Element, rows: Rows, name: str) -> dict[str, _Column
         check_lines(at > ends, rows.lines, name, wanted, lambda i: f"only {rows.counts[i]} numbers")
 
     columns = {}
-    for item in element.properties:
+    for item in element.properties.values():
         first = at
         step(1)
         if item.count is None:
@@ -83,36 +80,31 @@ def _typed(values: np.ndarray, item: _Property, name: str) -> np.ndarray:
 
 def _binary_columns(element: _Element, data: bytes, start: int, name: str) -> tuple[dict[str, _Column], int]:
     """Return the columns of an element that begins at byte ``start``, and where the next one begins."""
-    smallest = sum((p.count or p.kind).itemsize for p in element.properties)
+    properties = element.properties.values()
+    smallest = sum((p.count or p.kind).itemsize for p in properties)
     if element.rows * smallest > len(data) - start:
         got = f"{len(data) - start} bytes"
         raise refuse(name, f"{element.rows} rows of the element {element.name}", got, _CUT)
     if element.rows == 0:
         none = np.zeros(0, dtype=np.int64)
-        return {p.name: _Column(none, none if p.count else None) for p in element.properties}, start
+        return {p.name: _Column(none, none if p.count else None) for p in properties}, start
     # Nearly always the lists are equally long in every row; then the element is one structured array.
     _, sizes, _ = _walk(element, data, start, 1, name)
-    layout = []
-    for i, (item, (size,)) in enumerate(zip(element.properties, sizes, strict=True)):
-        if item.count is None:
-            layout.append((f"{i}", item.kind))
-        else:
-            layout += [(f"count {i}", item.count), (f"{i}", item.kind, (int(size),))]
+    layout: list[tuple] = []
+    for item, (size,) in zip(properties, sizes, strict=True):
+        layout += [(f"count {item.name}", item.count)] if item.count else []
+        layout.append((item.name, item.kind, (int(size),)))
     block_type = np.dtype(layout)
     end = start + element.rows * block_type.itemsize
     if end <= len(data):
         block = np.frombuffer(data, block_type, element.rows, start)
-        if all((block[c] == block[c][0]).all() for c in block_type.names or () if c.startswith("count")):
-            columns = {}
-            for i, item in enumerate(element.properties):
-                lengths = block[f"count {i}"].astype(np.int64) if item.count else None
-                columns[item.name] = _Column(block[f"{i}"].ravel(), lengths)
-            return columns, end
+        counts = {p.name: block[f"count {p.name}"].astype(np.int64) for p in properties if p.count}
+        if all((lengths == lengths[0]).all() for lengths in counts.values()):
+            return {p.name: _Column(block[p.name].ravel(), counts.get(p.name)) for p in properties}, end
 
     offsets, sizes, end = _walk(element, data, start, element.rows, name)
-    raw = np.frombuffer(data, dtype=np.uint8)
-    columns = {}
-    for item, first, lengths in zip(element.properties, offsets, sizes, strict=True):
+    raw, columns = np.frombuffer(data, dtype=np.uint8), {}
+    for item, first, lengths in zip(properties, offsets, sizes, strict=True):
         skip = item.count.itemsize if item.count else 0
         taken = raw[gathered(first + skip, lengths * item.kind.itemsize)].view(item.kind)
         columns[item.name] = _Column(taken, lengths if item.count else None)
@@ -122,8 +114,8 @@ def _binary_columns(element: _Element, data: bytes, start: int, name: str) -> tu
 def _walk(element: _Element, data: bytes, start: int, rows: int, name: str) -> tuple[np.ndarray, np.ndarray, int]:
     """Step through ``rows`` rows: where each property begins and how many values it has, (p, rows) both."""
     steps = []
-    for item in element.properties:
-        code = np.dtype(item.count or item.kind)
+    for item in element.properties.values():
+        code = item.count or item.kind
         order = "little" if code.newbyteorder("<") == code else "big"
         steps.append((item.count is not None, code.itemsize, item.kind.itemsize, order, code.kind == "i"))
     offsets, sizes = [], []
@@ -164,21 +156,20 @@ def parse_ply(data: bytes, name: str) -> MeshFile:
     found: dict[str, dict[str, _Column]] = {}
     if order == "":
         rows = parse_rows(clean_text(data[start:], name), name)
-        have, first = len(rows), 0
-        if have != sum(e.rows for e in elements):
+        first = 0
+        if len(rows) != sum(e.rows for e in elements):
             shown = [f"{e.rows} lines of {e.name}" for e in elements[:4]]
             wanted = " and ".join(shown + [f"{len(elements) - 4} elements more"] * (len(elements) > 4))
-            raise refuse(name, wanted, f"{have} lines", _CUT)
+            raise refuse(name, wanted, f"{len(rows)} lines", _CUT)
         for element in elements:
-            part = rows.part(first, first + element.rows)
-            found[element.name] = _text_columns(element, part, name)
+            found[element.name] = _text_columns(element, rows.part(first, first + element.rows), name)
             first += element.rows
-    else:
-        for element in elements:
-            found[element.name], start = _binary_columns(element, data, start, name)
-        if data[start:].strip():
-            what = "a header that counts all of it; it was perhaps copied as text"
-            raise refuse(name, what, f"{len(data) - start} bytes more", REPAIR)
+        return _mesh_file(found, name)
+    for element in elements:
+        found[element.name], start = _binary_columns(element, data, start, name)
+    if data[start:].strip():
+        what = "a header that counts all of it; it was perhaps copied as text"
+        raise refuse(name, what, f"{len(data) - start} bytes more", REPAIR)
     return _mesh_file(found, name)
 
 
@@ -188,8 +179,8 @@ def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
     if opening is None:
         raise refuse(name, "the word ply first", quoted(data[:16]), "check the extension")
     order: str | None = None
-    elements: dict[str, tuple[int, dict[str, _Property]]] = {}
-    properties: dict[str, _Property] = {}
+    elements: dict[str, _Element] = {}
+    properties: dict[str, _Property] = {}  # of the last element
     at, i = opening.end(), 1
     while (end := data.find(opening.group(1)[-1:], at)) >= 0:
         # Some programs end lines with \r\n in one part of the header and with \n in another.
@@ -198,7 +189,11 @@ def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
         where = f"{name}, line {i}"
         match words:
             case ["end_header"]:
-                return _checked_header(order, elements, at, name)
+                bare = [one.name for one in elements.values() if not one.properties]
+                if order is None or bare:
+                    got = "none" if order is None else f"none for {bare[0]}"
+                    raise refuse(f"{name}: header", "a format, and properties of each element", got, REPAIR)
+                return order, list(elements.values()), at
             case [] | ["comment" | "obj_info", *_]:
                 pass
             case ["format", kind, "1.0"] if kind in _ORDERS and order is None:
@@ -207,7 +202,7 @@ def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
                 if kind in elements:
                     raise refuse(where, "each element once", f"{kind} again", REPAIR)
                 properties = {}
-                elements[kind] = (int(count), properties)
+                elements[kind] = _Element(kind, int(count), properties)
             case ["property", *rest] if elements and order is not None:
                 item = _property(rest, order, where)
                 if item.name in properties:
@@ -216,17 +211,6 @@ def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
             case _:
                 raise refuse(where, "a line of a PLY header", quoted(line), REPAIR)
     raise refuse(name, "a header that ends in end_header", "none", "the file is cut short: export it again")
-
-
-def _checked_header(
-    order: str | None, elements: dict[str, tuple[int, dict[str, _Property]]], end: int, name: str
-) -> tuple[str, list[_Element], int]:
-    """What :func:`_header` returns, when it is all there."""
-    bare = [kind for kind, (_, properties) in elements.items() if not properties]
-    if order is None or bare:
-        got = "none" if order is None else f"none for {bare[0]}"
-        raise refuse(f"{name}: header", "a format, and properties of each element", got, REPAIR)
-    return order, [_Element(kind, count, tuple(p.values())) for kind, (count, p) in elements.items()], end
 
 
 def _property(words: list[str], order: str, where: str) -> _Property:
@@ -262,17 +246,12 @@ def _mesh_file(found: dict[str, dict[str, _Column]], name: str) -> MeshFile:
     color_names = next((c for c in _COLORS if vertex.keys() >= set(c)), None)
     uv_names = next((c for c in _UV if vertex.keys() >= set(c)), None)
     uv = stacked(uv_names) if uv_names and len(faces) else None
-    colors = _colors(vertex, color_names) if color_names else None
+    colors = None
+    if color_names:  # bytes and 16-bit numbers by their range, text and fractions by their size
+        kind = np.result_type(*(vertex[k].values.dtype for k in color_names))
+        colors = stacked(color_names)
+        colors = colors / np.iinfo(kind).max if kind.kind == "u" else unit_colors(colors)
     return MeshFile(Mesh(stacked(("x", "y", "z")), faces), colors, uv, None if uv is None else faces)
-
-
-def _colors(vertex: dict[str, _Column], names: tuple[str, ...]) -> np.ndarray:
-    """Colours from 0 to 1: bytes and 16-bit numbers by their range, text and fractions by their size."""
-    values = [vertex[k].values for k in names]
-    columns = np.stack(values, axis=1)
-    if columns.dtype.kind == "u":
-        return columns / np.iinfo(columns.dtype).max
-    return unit_colors(columns.astype(np.float64))
 
 
 def format_ply(shape: MeshFile) -> bytes:

@@ -77,7 +77,7 @@ def read_values(path: str | Path) -> Values:
 
 
 def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
-    """The cells as a (rows, columns) array, of one column (rows,), of numbers, or of texts when no row is all numbers."""
+    """The cells as an array (rows, columns), or (rows,), of numbers, or of texts when no row is all numbers."""
     if not rows:
         raise refuse(name, "a row for each source vertex", "none", "check that it is the right file")
     at, cells = np.array([line for line, _ in rows]), [row for _, row in rows]
