@@ -243,11 +243,11 @@ def lying_npz() -> bytes:
         (npz(target_to_source=ONE, functional_map=np.full((2, 2), np.inf)), "functional_map: expected finite"),
         (
             npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_source=ONE),
-            "_source: expected 2 numbers",
+            "_source: expected shape (2)",
         ),
         (
             npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_target=ONE),
-            "_target: expected 2 numbers",
+            "_target: expected shape (2)",
         ),
         (
             npz(target_to_source=ONE, config="{}"),
@@ -288,7 +288,6 @@ def test_check_map() -> None:
 
 
 DEEP = "[" * 100_000
-LEVELS = '{"a":' * 60 + "1" + "}" * 60
 SIZED = json.dumps({"source_file": {"n_vertices": 5}})
 HALF = np.full((4, 3), 0.5)
 
@@ -300,17 +299,17 @@ HALF = np.full((4, 3), 0.5)
         ({"alternatives": np.zeros((2, 3)) + 1}, "alternatives: expected shape (any, 4), got shape (2, 3)"),
         ({"alternatives": np.ones((2, 2, 4))}, "alternatives: expected shape (any, 4)"),
         ({"alternatives": np.full((1, 4), 1.5)}, "fractions"),
-        ({"alternatives": np.full((1, 4), 9.0), "summary": SIZED}, "vertex numbers from 0 to 4, got"),
+        ({"alternatives": np.full((1, 4), 9.0), "summary": SIZED}, "source vertices from 0 to 4, got"),
         ({"alternatives": "text"}, "an array of numbers"),
         ({"raw_target_to_source": ONE[1:]}, "raw_target_to_source: expected shape (4), got shape (3,)"),
         ({"landmarks": np.ones((2, 3))}, "landmarks: expected shape (any, 2)"),
-        ({"landmarks": np.full((2, 2), 7)}, "landmarks: expected vertex numbers from 0 to 3, got"),
+        ({"landmarks": np.full((2, 2), 7)}, "landmarks: expected target vertices from 0 to 3, got"),
         ({"landmarks": "1 2"}, "an array of numbers"),
         ({"local_confidence": np.zeros(3)}, "local_confidence: expected shape (4), got shape (3,)"),
         ({"local_confidence": np.full(4, np.inf)}, "infinite"),
         ({"overlap_target": np.full(4, 1.5)}, "overlap_target: expected numbers from 0 to 1"),
         ({"registered_vertices": np.zeros((4, 3)), "summary": SIZED}, "registered_vertices: expected shape (5, 3)"),
-        ({"precise_faces": ONE + 1}, "both precise_faces and precise_weights"),
+        ({"precise_faces": ONE + 1}, "precise_map.weights: expected a value, got none"),
         ({"precise_faces": ONE + 1, "precise_weights": HALF}, "numbers with sum 1 in each row"),
         ({"raw_functional_map": np.zeros((2, 2, 2))}, "raw_functional_map: expected shape (any, any)"),
         (
@@ -318,15 +317,14 @@ HALF = np.full((4, 3), 0.5)
             "expected source vertices from 0 to 1, got",
         ),
         ({"summary": DEEP}, "summary: expected a summary as JSON"),
-        ({"summary": LEVELS}, "summary: expected JSON of at most 50 levels"),
         ({"summary": "made on a Monday"}, "summary: expected a summary as JSON"),
-        ({"summary": "[1]"}, "summary: expected the fields of a match as JSON, got list"),
-        ({"summary": ONE}, "summary: expected text"),
-        ({"summary": '{"seed": "7"}'}, "summary: seed: expected"),
-        ({"summary": '{"confidence": 1%s}' % ("0" * 400)}, "summary: confidence: expected"),
+        ({"summary": "[1]"}, "summary: expected the fields of a record, got [1]"),
+        ({"summary": ONE}, "summary: expected a summary as JSON"),
+        ({"summary": '{"seed": "7"}'}, ": seed: expected int"),
+        ({"summary": '{"confidence": 1%s}' % ("0" * 400)}, ": confidence: expected"),
         ({"summary": '{"precise_map": {"faces": [1]}}'}, "precise_map.faces: expected a value, got none"),
-        ({"summary": '{"score": 3}'}, "summary: score: expected a dictionary"),
-        ({"summary": '{"score": {"scores": [1, "a"]}}'}, "summary: score.scores: expected"),
+        ({"summary": '{"score": 3}'}, ": score: expected the fields of a record"),
+        ({"summary": '{"score": {"scores": [1, "a"]}}'}, ": score.scores: expected"),
         (
             {"summary": '{"registration": {"report": {"gap": 1}}}'},
             "report.deformation_energy: expected a value",
@@ -386,7 +384,7 @@ def test_sizes_are_looked_at_before_memory_is_taken(
     tmp_path: Path, suffix: str, packed: Any, sizes: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Kilobytes of file that unpack to much more than a map has: refused with a small part of it unpacked."""
-    monkeypatch.setattr("kfmaps.io.mapfile._LARGEST", 1 << 20)
+    monkeypatch.setattr("kfmaps.io.mapfile._LARGEST", 1 << 23)
     content = packed(*sizes)
     assert len(content) < 1 << 17
     tracemalloc.start()

@@ -13,8 +13,8 @@ from functools import lru_cache
 from inspect import cleandoc
 from numbers import Integral, Real
 from textwrap import shorten
-from types import NoneType
-from typing import Any, Literal, TypeVar, cast, dataclass_transform, get_args, get_origin, get_type_hints
+from types import NoneType, UnionType
+from typing import Any, Literal, TypeVar, Union, cast, dataclass_transform, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -51,13 +51,12 @@ class Setting:
     @property
     def types(self) -> tuple[Any, ...]:
         """The types that a value may have, ``None`` left out."""
-        hints = (self.hint,) if get_origin(self.hint) in (None, Literal, tuple) else get_args(self.hint)
-        return tuple(hint for hint in hints if hint is not NoneType)
+        return tuple(hint for hint in types_of(self.hint) if hint is not NoneType)
 
     @property
     def optional(self) -> bool:
         """Whether the value may be ``None``."""
-        return NoneType in get_args(self.hint)
+        return NoneType in types_of(self.hint)
 
     @property
     def choices(self) -> tuple[str, ...]:
@@ -138,6 +137,11 @@ def _is_a(value: object, hint: object) -> bool:
     return callable(value) and not isinstance(value, type)
 
 
+def types_of(hint: object) -> tuple[Any, ...]:
+    """Return the types of a union, or the one type."""
+    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+
+
 def setting(default: Any, help: str = "", **bounds: Any) -> Any:
     """Return a dataclass field with documentation and bounds.
 
@@ -170,7 +174,7 @@ def settings_record(cls: type[_T]) -> type[_T]:
 
 @lru_cache(maxsize=64)
 def settings_of(cls: type) -> Mapping[str, Setting]:
-    """Return the settings of a record class by name."""
+    """Return the settings of a record class, the fields of any dataclass, by name."""
     hints, found = get_type_hints(cls), {}
     for f in fields(cls):
         default = f.default if f.default is not MISSING else f.default_factory

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
-from functools import lru_cache
 from types import NoneType
-from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import numpy as np
 
 import kfmaps
 from kfmaps._arrays import Array, InvalidInput, refuse
-from kfmaps._records import JsonObject
+from kfmaps._records import JsonObject, settings_of, types_of
 from kfmaps.config import Config, as_dict, from_dict
 from kfmaps.io.mapcontent import ARRAYS
 from kfmaps.io.text import REPAIR
@@ -22,8 +20,6 @@ from kfmaps.matching.result import SHAPE_FIELDS, Match
 
 _T = TypeVar("_T")
 
-DEEPEST = 50
-"""Levels of a JSON text; a summary has five."""
 _ELSEWHERE = {*(array.field for array in ARRAYS.values()), *SHAPE_FIELDS, "_reindexing"}
 """Fields of a match that its summary does not hold."""
 
@@ -52,24 +48,6 @@ def mean_confidence(match: Match) -> float | None:
     return float(values.mean()) if len(values) else None
 
 
-def parse_summary(text: str, name: str) -> JsonObject:
-    """Return the dictionary in the JSON ``text`` of a summary; empty for an empty text."""
-    try:
-        values = json.loads(text) if text else {}
-        level, depth = [values], 0
-        while level and depth <= DEEPEST:
-            below = [v for v in level if isinstance(v, dict | list)]
-            level = [x for v in below for x in (v.values() if isinstance(v, dict) else v)]
-            depth += 1
-    except (ValueError, RecursionError) as error:
-        raise refuse(name, "a summary as JSON", f"{len(text)} letters of something else", REPAIR) from error
-    if depth > DEEPEST:
-        raise refuse(name, f"JSON of at most {DEEPEST} levels", "more", REPAIR)
-    if not isinstance(values, dict):
-        raise refuse(name, "the fields of a match as JSON", type(values).__name__, REPAIR)
-    return values
-
-
 def plain_record(record: Any, arrays: dict[str, np.ndarray] | None = None, path: str = "") -> JsonObject:
     """Return the fields of a record as plain values for JSON, without those that a map file keeps elsewhere.
 
@@ -96,16 +74,6 @@ def _plain(value: Any, path: str, arrays: dict[str, np.ndarray] | None) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-@lru_cache(maxsize=16)
-def _hints(cls: type) -> Mapping[str, Any]:
-    return get_type_hints(cls)
-
-
-def _options(hint: object) -> tuple[object, ...]:
-    """The types of a union, or the one type."""
-    return (hint,) if get_origin(hint) in (None, tuple, dict, Literal) else get_args(hint)
-
-
 def read_record(
     cls: type[_T], values: object, name: str, arrays: Mapping[str, Array] | None = None, path: str = ""
 ) -> _T:
@@ -115,33 +83,33 @@ def read_record(
     """
     arrays = arrays or {}
     if not isinstance(values, Mapping):
-        raise refuse(f"{name}: {path[:-1]}", "a dictionary", repr(values)[:60], REPAIR)
+        raise refuse(f"{name}: {path[:-1] or 'summary'}", "the fields of a record", repr(values)[:60], REPAIR)
     found: JsonObject = {}
-    for f in fields(cls):  # pyright: ignore[reportArgumentType]
-        label, hint = path + f.name, _hints(cls)[f.name]
-        record = next((one for one in _options(hint) if is_dataclass(one)), None)
+    for one in settings_of(cls).values():
+        label, value = path + one.name, values.get(one.name)
+        record = next((kind for kind in one.types if is_dataclass(kind)), None)
         if label in arrays:
-            found[f.name] = arrays[label]
+            found[one.name] = arrays[label]
         elif record is Config:
-            found[f.name] = _config(values.get(f.name))
+            found[one.name] = _config(value)
         elif isinstance(record, type) and label not in _ELSEWHERE:
-            inside = values.get(f.name)
-            if inside is not None or any(one.startswith(f"{label}.") for one in arrays):
-                found[f.name] = read_record(record, inside or {}, name, arrays, f"{label}.")
-            elif NoneType in _options(hint):
-                found[f.name] = None
-        elif f.name in values and label not in _ELSEWHERE:
-            found[f.name] = _read_value(hint, values[f.name], f"{name}: {label}")
-        elif f.default is MISSING and f.default_factory is MISSING:
+            if value is not None or any(key.startswith(f"{label}.") for key in arrays):
+                found[one.name] = read_record(record, value or {}, name, arrays, f"{label}.")
+            elif one.optional:
+                found[one.name] = None
+        elif one.name in values and label not in _ELSEWHERE:
+            found[one.name] = _read_value(one.hint, value, f"{name}: {label}")
+        elif one.default is MISSING:
             raise refuse(f"{name}: {label}", "a value", "none", REPAIR)
     return cls(**found)
 
 
 def _read_value(hint: object, value: Any, label: str) -> Any:
     """``value`` as one of the types of ``hint``; a number that was not finite is NaN."""
-    if value is None and NoneType in _options(hint):
+    kinds = types_of(hint)
+    if value is None and NoneType in kinds:
         return None
-    for kind in _options(hint):
+    for kind in kinds:
         origin, inner = get_origin(kind), get_args(kind)
         if origin is Literal and value in inner:
             return value
@@ -156,7 +124,7 @@ def _read_value(hint: object, value: Any, label: str) -> Any:
             return math.nan if value is None else float(value)
         if kind in (int, str, bool) and type(value) is kind:
             return value
-    raise refuse(label, str(hint), repr(value)[:60], REPAIR)
+    raise refuse(label, hint.__name__ if isinstance(hint, type) else str(hint), repr(value)[:60], REPAIR)
 
 
 def _config(values: JsonObject | None) -> Config | None:

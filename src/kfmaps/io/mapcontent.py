@@ -11,7 +11,9 @@ from kfmaps._arrays import Array, check, refuse
 from kfmaps.io.text import REPAIR
 
 Size = int | str | None
-"""Length of an axis: a number, the number of vertices of the source ("s") or target ("t"), or any."""
+"""Length of an axis: a number, the name of a length that arrays share ("s" and "t": vertices), or any."""
+
+_NUMBERED = {"s": "source vertices", "t": "target vertices", "f": "faces"}
 
 
 @dataclass(frozen=True)
@@ -20,20 +22,21 @@ class _MapArray:
 
     field: str  # the field of :class:`kfmaps.Match` that it holds; a dot leads into a group of fields
     shape: tuple[Size, ...]
-    # Whose numbers it holds: vertices of the source ("s") or target ("t"), one letter a column ("st"), or faces ("f").
-    # A .mat file counts them from 1. Empty for real numbers.
+    # Whose numbers it holds, one letter of ``_NUMBERED`` a column; a .mat file counts them from 1. Empty for others.
     of: str = ""
     missing: bool = False  # whether −1 may stand for a vertex without counterpart, or NaN for an unknown number
     high: float = np.inf  # greatest value of numbers that are at least 0; infinite where they are not bounded
 
-    def check(self, value: object, name: str, sizes: Mapping[str, int | None]) -> np.ndarray:
-        """Return ``value`` as int64 or float64 where it is what the field wants; ``sizes``: vertices of both shapes."""
-        shape = tuple(sizes[size] if isinstance(size, str) else size for size in self.shape)
-        array = check(real(value, name), name, shape=shape, finite=not self.missing, remedy=REPAIR)
+    def check(self, value: object, name: str, sizes: dict[str, int | None]) -> np.ndarray:
+        """Return ``value`` as int64 or float64 where it is what the field wants, and add its lengths to ``sizes``."""
+        shape = tuple(sizes.get(size) if isinstance(size, str) else size for size in self.shape)
+        array = check(real(value, name), name, shape=shape, finite=bool(self.of) or not self.missing, remedy=REPAIR)
+        sizes |= {size: n for size, n in zip(self.shape, array.shape, strict=True) if isinstance(size, str)}
         if self.of:
-            columns = [array] if len(self.of) == 1 else array.T
-            numbers = [_vertex_numbers(one, name, sizes.get(of)) for one, of in zip(columns, self.of, strict=True)]
-            return numbers[0] if len(numbers) == 1 else np.stack(numbers, axis=1)
+            columns = array.T if len(self.of) > 1 else [array]
+            checked = zip(columns, self.of, strict=True)
+            numbers = [_vertex_numbers(one, name, sizes.get(of), self.missing, _NUMBERED[of]) for one, of in checked]
+            return np.stack(numbers, axis=1) if len(numbers) > 1 else numbers[0]
         if np.isinf(array).any():
             raise refuse(name, "numbers, NaN where one is not known", "infinite ones", REPAIR)
         if self.high < np.inf and array.size and (array.min() < 0 or array.max() > self.high):
@@ -43,9 +46,9 @@ class _MapArray:
 
 ARRAYS = {
     "target_to_source": _MapArray("target_to_source", ("t",), "s", missing=True),
-    "functional_map": _MapArray("functional_map", (None, None)),
-    "eigenvalues_source": _MapArray("eigenvalues_source", (None,)),
-    "eigenvalues_target": _MapArray("eigenvalues_target", (None,)),
+    "functional_map": _MapArray("functional_map", ("k_t", "k_s")),
+    "eigenvalues_source": _MapArray("eigenvalues_source", ("k_s",)),
+    "eigenvalues_target": _MapArray("eigenvalues_target", ("k_t",)),
     "local_confidence": _MapArray("local_confidence", ("t",), missing=True),
     "alternatives": _MapArray("alternatives", (None, "t"), "s"),
     "landmarks": _MapArray("landmarks", (None, 2), "st"),
@@ -101,7 +104,7 @@ def check_map(
     if not lost and numbers.min() == -1:
         wanted, got = "a counterpart of every target vertex", f"{np.count_nonzero(numbers == -1)} without one"
         raise refuse(name, wanted, got, "this needs a map between whole shapes")
-    return _vertex_numbers(numbers, name, n_s, lost, "source vertices", remedy)
+    return _vertex_numbers(numbers, name, n_s, lost, remedy=remedy)
 
 
 def check_arrays(content: Mapping[str, Array], n_s: int | None, name: str) -> dict[str, Array]:
@@ -110,38 +113,23 @@ def check_arrays(content: Mapping[str, Array], n_s: int | None, name: str) -> di
     ``content``: names that no map file has are left out; ``n_s``: number of vertices of the source, where it is known;
     ``name``: the file, for messages.
     """
-    title = f"{name}: target_to_source"
-    points = check_map(content["target_to_source"], n_s, name=title, lost=True)
-    sizes = {"s": n_s, "t": len(points)}
-    found: dict[str, Array] = {"target_to_source": points}
-    for key, kind in ARRAYS.items():
-        if key in content and key != "target_to_source":
-            found[kind.field] = kind.check(content[key], f"{name}: {key}", sizes)
+    sizes: dict[str, int | None] = {"s": n_s}
+    known = [(key, kind) for key, kind in ARRAYS.items() if key in content]
+    found: dict[str, Array] = {kind.field: kind.check(content[key], f"{name}: {key}", sizes) for key, kind in known}
+    if len(found["target_to_source"]) == 0:
+        raise refuse(f"{name}: target_to_source", "a whole number for each target vertex", "none", REPAIR)
     if "alternatives" in found:
         found["alternatives"] = tuple(found["alternatives"])
     weights = found.get("precise_map.weights")
-    if (weights is None) != ("precise_map.faces" not in found):
-        raise refuse(f"{name}: precise_faces", "both precise_faces and precise_weights", "one of them", REPAIR)
-    if weights is not None and len(weights) and np.abs(weights.sum(axis=1) - 1).max() > 1e-6:
+    if weights is not None and np.abs(weights.sum(axis=1) - 1).max() > 1e-6:
         raise refuse(f"{name}: precise_weights", "numbers with sum 1 in each row", "others", REPAIR)
-    if "functional_map" in found:
-        for size, side in zip(found["functional_map"].shape, ("target", "source"), strict=True):
-            values = found.get(f"eigenvalues_{side}")
-            if values is not None and len(values) != size:
-                got = f"{len(values)} beside a map of shape {found['functional_map'].shape}"
-                raise refuse(f"{name}: eigenvalues_{side}", f"{size} numbers", got, REPAIR)
     return found
 
 
 def _vertex_numbers(
-    numbers: np.ndarray,
-    name: str,
-    n: int | None,
-    lost: bool = False,
-    what: str = "vertex numbers",
-    remedy: str = REPAIR,
+    numbers: np.ndarray, name: str, n: int | None, lost: bool, what: str = "source vertices", remedy: str = REPAIR
 ) -> np.ndarray:
-    """``numbers`` as int64 where they are vertices of a shape of ``n``, or of any where ``n`` is ``None``."""
+    """``numbers`` as int64 where they are from 0 to ``n - 1``, or any where ``n`` is ``None``; −1 where ``lost``."""
     if numbers.dtype.kind == "f" and not (numbers == np.rint(numbers)).all():
         raise refuse(name, "a whole number for each vertex", "fractions", remedy)
     low, high = (numbers.min(), numbers.max()) if numbers.size else (0, 0)

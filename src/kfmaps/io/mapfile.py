@@ -11,20 +11,19 @@ from typing import IO, Any
 import numpy as np
 
 from kfmaps._arrays import Array, refuse
-from kfmaps._memory import format_bytes
-from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.atomic import atomic_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
-from kfmaps.io.map_summary import parse_summary, read_record, summarize_match
+from kfmaps.io.map_summary import read_record, summarize_match
 from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, real
-from kfmaps.io.matfile import read_mat
+from kfmaps.io.matfile import check_unpacked, read_mat
 from kfmaps.io.text import REPAIR, check_suffix, complete_or_refuse, read_bytes
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
 
 _FORMATS = (".npz", ".txt", ".vts", ".mat")
 
-_LARGEST = 1 << 28
-"""Numbers that a map file may hold: 2 GiB of them, a map of 30 million vertices with all that is known of it."""
+_LARGEST = 1 << 31
+"""Bytes that a map file may unpack to: a map of 30 million vertices with all that is known of it."""
 
 
 def save_map(path: str | Path, match: Match, force: bool = False) -> None:
@@ -50,7 +49,6 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
     if not isinstance(match, Match):
         raise refuse("map", "a Match", type(match).__name__, "give what kfmaps.match returned")
     suffix = check_format(path)
-    check_output(path, force)
     if suffix in (".txt", ".vts"):
         write_vertex_numbers(path, match.target_to_source, force=force)
         return
@@ -102,12 +100,14 @@ def load_map(path: str | Path) -> Match:
     if "target_to_source" not in content:
         got = ", ".join(sorted(content)) or "an empty file"
         raise refuse(name, "an array target_to_source", got, "give a map that kfmaps wrote")
-    text = content.get("summary", "")
-    if not isinstance(text, str):
-        raise refuse(f"{name}: summary", "text", f"an array of {np.asarray(text).dtype}", REPAIR)
-    summary = parse_summary(text, f"{name}: summary")
-    source = read_record(ShapeFile, summary.get("source_file", {}), f"{name}: summary", path="source_file.")
-    return read_record(Match, summary, f"{name}: summary", check_arrays(content, source.n_vertices, name))
+    text = content.get("summary", "{}")
+    try:
+        summary = json.loads(text)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise refuse(f"{name}: summary", "a summary as JSON", "something else", REPAIR) from error
+    known = summary.get("source_file", {}) if isinstance(summary, dict) else {}
+    source = read_record(ShapeFile, known, name, path="source_file.")
+    return read_record(Match, summary, name, check_arrays(content, source.n_vertices, name))
 
 
 def check_format(path: str | Path) -> str:
@@ -126,13 +126,6 @@ def check_npy(file: IO[bytes], size: int, name: str) -> float:
     return count * max(1.0, dtype.itemsize / 8)
 
 
-def _check_size(count: float, name: str) -> None:
-    """Refuse a map file that unpacks to more than :data:`_LARGEST` numbers."""
-    if count > _LARGEST:
-        wanted = f"a map of at most {format_bytes(8 * _LARGEST)} unpacked"
-        raise refuse(name, wanted, format_bytes(8 * count), "a map takes a few numbers for each vertex: check the file")
-
-
 def _array(match: Match, name: str) -> np.ndarray | None:
     """The array ``name`` of a file; ``None`` where the match has none."""
     value: Any = match
@@ -146,19 +139,19 @@ def _npz_content(data: bytes, name: str) -> dict[str, Array]:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         items = archive.infolist()
         # What an archive unpacks to may be a thousand times its size: what it declares is looked at first.
-        _check_size(sum(item.file_size for item in items) / 8, name)
-        total = 0.0
+        check_unpacked(sum(item.file_size for item in items), _LARGEST, name)
+        total, loaded = 0.0, {}
         for item in items:
             with archive.open(item) as file:
                 total += check_npy(file, item.file_size, f"{name}: {item.filename}")
-        _check_size(total, name)
-    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
-        loaded = {k: arrays[k] for k in arrays.files}
+            check_unpacked(8 * total, _LARGEST, name)
+            with archive.open(item) as file:
+                loaded[item.filename.removesuffix(".npy")] = np.lib.format.read_array(file, allow_pickle=False)
     return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}
 
 
 def _mat_content(data: bytes, name: str) -> dict[str, Array]:
-    content: dict[str, Array] = dict(read_mat(data, name, 8 * _LARGEST))
+    content: dict[str, Array] = dict(read_mat(data, name, _LARGEST))
     for key, array in ARRAYS.items():
         value = content.get(key)
         if not isinstance(value, np.ndarray):

@@ -1,4 +1,7 @@
-"""MATLAB's .mat files, version 5 (what ``save`` writes unless told ``-v7.3``), read strictly."""
+"""MATLAB's .mat files, version 5 (what ``save`` writes unless told ``-v7.3``), read strictly.
+
+SciPy's reader is not used, since a damaged file can end the whole process there.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +34,7 @@ def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarra
     while at < len(data):
         kind, body, at = _element(data, at, order, name, top=True)
         if kind == _COMPRESSED:
-            body = _unpacked(body, order, name, most - taken, most)
+            body = _unpacked(body, order, name, taken, most)
             taken += len(body)
             kind, body, _ = _element(body, 0, order, name)
         if kind != _MATRIX:
@@ -40,13 +43,12 @@ def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarra
         if found is not None:
             content[found[0]] = found[1]
             taken += 8 * np.size(found[1]) if isinstance(found[1], np.ndarray) else 4 * len(found[1])
-            if taken > most:
-                raise _large(name, taken, most)
+            check_unpacked(taken, most, name)
     return content
 
 
-def _unpacked(body: bytes, order: str, name: str, left: float, most: int) -> bytes:
-    """A compressed element, of which not more is unpacked than it says of itself, nor more than ``left`` bytes."""
+def _unpacked(body: bytes, order: str, name: str, taken: float, most: int) -> bytes:
+    """A compressed element, of which not more is unpacked than it says, nor with ``taken`` more than ``most`` bytes."""
     stream = zlib.decompressobj()
     try:
         head = stream.decompress(body, 8)
@@ -54,8 +56,7 @@ def _unpacked(body: bytes, order: str, name: str, left: float, most: int) -> byt
             raise _damaged(name)
         kind, size = (int(x) for x in np.frombuffer(head, order + "u4", 2))
         size = 0 if kind >> 16 else size  # a small element is all in its head
-        if size > left:
-            raise _large(name, most - left + size, most)
+        check_unpacked(taken + size, most, name)
         rest = stream.decompress(stream.unconsumed_tail, size) if size else b""
         stream.decompress(stream.unconsumed_tail, 8)
     except zlib.error as error:
@@ -65,9 +66,11 @@ def _unpacked(body: bytes, order: str, name: str, left: float, most: int) -> byt
     return head + rest
 
 
-def _large(name: str, got: float, most: int) -> Exception:
-    wanted = f"a map of at most {format_bytes(most)} unpacked"
-    return refuse(name, wanted, format_bytes(got), "a map takes a few numbers for each vertex: check the file")
+def check_unpacked(size: float, most: int, name: str) -> None:
+    """Refuse a map file that unpacks to more than ``most`` bytes."""
+    if size > most:
+        wanted = f"a map of at most {format_bytes(most)} unpacked"
+        raise refuse(name, wanted, format_bytes(size), "a map takes a few numbers for each vertex: check the file")
 
 
 def _damaged(name: str) -> Exception:
