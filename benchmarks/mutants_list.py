@@ -431,8 +431,8 @@ MUTANTS = tuple(
             "test_collection -k family",
         ),
         (
-            "rows = np.flatnonzero(chosen)[there]",
-            "rows = np.flatnonzero(there)",
+            "vertices=np.where(lost, -1, self.vertices)",
+            "vertices=np.where(~lost, -1, self.vertices)",
             "test_landmark_files -k closest_point",
         ),
         # config

@@ -77,9 +77,7 @@ def _read_specimen(one: Mapping[str, str], rows: Sequence[Mapping[str, str]]) ->
     positions = np.stack([column(axis) for axis in "xyz"], axis=1)
     vertices, faces = (column(name).astype(np.int64) for name in ("vertex", "face"))
     names = tuple(row["name"] for row in rows)
-    points = NamedPoints(
-        names, PointMap(faces, weights), positions, vertices, column("confidence"), np.full(len(rows), np.nan)
-    )
+    points = NamedPoints(names, PointMap(faces, weights), positions, vertices, column("confidence"))
     return SpecimenLandmarks(
         *(one["specimen"], points, column("spread"), column("rival_distance"), tuple(row["flag"] for row in rows)),
         scan=Path(one["scan"]),

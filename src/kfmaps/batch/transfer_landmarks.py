@@ -16,15 +16,13 @@ from kfmaps.batch.results import Result
 from kfmaps.batch.work import map_path
 from kfmaps.collection.procrustes import generalized_procrustes, geometric_median, is_mirror_image
 from kfmaps.collection.semilandmarks import slide_semilandmarks
-from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
-from kfmaps.geometry.closest_points import closest_points
+from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map, load_map
 from kfmaps.io.landmark_files import (
     LPS,
     RAS,
     LandmarkSet,
-    check_names,
     find_curves,
     fixed_rows,
     landmark_stem,
@@ -36,10 +34,8 @@ from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import (
     FLIP,
     NamedPoints,
-    choose_specimen,
-    map_columns,
     place_landmarks,
-    scatter_points,
+    points_on_surface,
     transfer_points,
 )
 from kfmaps.io.partial_map import find_counterparts, precise_points
@@ -110,6 +106,7 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
     a file for each curve, which is then called as the file is.
     """
     found: dict[str, Template] = {}
+    positions: dict[str, dict[str, np.ndarray]] = {}
     for file in files:
         sets = read_landmark_sets(file)
         for one in sets:
@@ -118,38 +115,37 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
             mesh, space = read_shape_mesh(path), mesh_space(path)
             if len(mesh.faces) == 0:
                 raise refuse(str(path), "a surface with faces", "a point cloud", "Landmarks lie on surfaces")
-            given = _name_curve(choose_specimen([one], name, str(file)), landmark_stem(file), name)
+            given = _name_curve(one, landmark_stem(file), name)
             points = place_landmarks(given, mesh, str(file), space=space)
-            if name in found:
-                known = found[name].points
-                if again := set(known.names) & set(points.names):
-                    got = f"two with {min(again)!r}"
-                    raise refuse(str(file), f"one file for each landmark of {name}", got, "leave one out")
-                joined = map_columns(known.names + points.names, lambda a, b: np.concatenate([a, b]), known, points)
-                found[name] = replace(found[name], points=joined)
-                continue
-            found[name] = Template(name, file, path, mesh, points, space or _space(given, points))
-    templates = list(found.values())
-    first = templates[0]
-    names = tuple(dict.fromkeys(label for one in templates for label in one.points.names))
+            own = positions.setdefault(name, {})
+            if again := own.keys() & set(points.names):
+                got = f"two with {min(again)!r}"
+                raise refuse(str(file), f"one file for each landmark of {name}", got, "leave one out")
+            own |= zip(points.names, points.points, strict=True)
+            found.setdefault(name, Template(name, file, path, mesh, points, space or _space(given, points)))
+    names = tuple(dict.fromkeys(label for own in positions.values() for label in own))
     curves = find_curves(names)
     names = tuple(names[row] for row in [*fixed_rows(names), *(row for curve in curves for row in curve.rows)])
-    for one, curve in itertools.product(templates, find_curves(names)):
-        count = sum(names[row] in one.points.names for row in curve.rows)
+    for one, curve in itertools.product(found.values(), find_curves(names)):
+        count = sum(names[row] in positions[one.specimen] for row in curve.rows)
         if 0 < count < len(curve.rows):
             wanted = f"{len(curve.rows)} points of the curve {curve.name}, as another has"
             raise refuse(str(one.file), wanted, f"{count}", "resample them alike")
-    for one in templates[1:]:
-        if is_mirror_image(_by_name(one.points, names), _by_name(first.points, names)):
-            got = f"a mirror image of {first.file}'s"
+    templates: list[Template] = []
+    for one in found.values():
+        own = np.array([positions[one.specimen].get(name, np.full(3, np.nan)) for name in names])
+        points = points_on_surface(names, own, one.mesh)
+        if templates and is_mirror_image(points.points, templates[0].points.points):
+            got = f"a mirror image of {templates[0].file}'s"
             remedy = "Left and right labels are swapped in one of them, or one of the scans is a mirror image"
             raise refuse(str(one.file), "landmarks like those of the others", got, remedy)
-    templates = [replace(one, points=_all_names(one.points, names)) for one in templates]
+        templates.append(replace(one, points=points))
     if len(templates) == 1 or not curves:
         return templates
     slid = _slide(np.stack([one.points.points for one in templates]), templates)
-    pairs = zip(templates, slid, strict=True)
-    return [replace(one, points=_on_surface(names, new, one.points.confidence, one.mesh)) for one, new in pairs]
+    return [
+        replace(one, points=points_on_surface(names, new, one.mesh)) for one, new in zip(templates, slid, strict=True)
+    ]
 
 
 def _name_curve(given: LandmarkSet, stem: str, specimen: str) -> LandmarkSet:
@@ -202,8 +198,7 @@ def carry_templates(
     if not used:
         reasons = [r.reason for r in results.values() if r.reason]
         nothing = np.full(len(names), np.nan)
-        lost = replace(templates[0].points, vertices=np.full(len(names), -1))
-        points = scatter_points(lost, names, np.ones(len(names), dtype=bool))
+        points = templates[0].points.without(np.ones(len(names), dtype=bool))
         told = reasons[0] if reasons else "it was not matched"
         return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), path, 0, "failed", misfit=told)
     mesh = read_shape_mesh(path)
@@ -220,7 +215,7 @@ def carry_templates(
     distances = np.linalg.norm(proposals - median, axis=2)
     near = np.where(np.isnan(distances), np.nan, distances <= MAX_SPREAD * unit)
     confidence = _mean(np.stack([points.confidence for points in carried])) * _mean(near)
-    points = _on_surface(names, median, confidence, mesh)
+    points = points_on_surface(names, median, mesh, confidence)
     spread = np.fmax.reduce(distances) if len(used) > 1 else np.full(len(names), np.nan)
     flags = tuple(_flag(*one) for one in zip(confidence, spread / unit, points.vertices >= 0, strict=True))
     best = max((results[one.specimen] for one in used), key=lambda r: r.confidence or 0.0)
@@ -239,17 +234,6 @@ def _slide(points: np.ndarray, templates: Sequence[Template]) -> np.ndarray:
     given = np.stack([one.points.points for one in templates])
     reference = given[0] if len(given) == 1 else generalized_procrustes(given).consensus
     return np.stack([slide_semilandmarks(one, reference, curves) for one in points])
-
-
-def _on_surface(names: tuple[str, ...], positions: np.ndarray, confidence: np.ndarray, mesh: Mesh) -> NamedPoints:
-    """Return the points of the surface that are closest to ``positions (l, 3)``; NaN positions have none."""
-    there = np.asarray(np.isfinite(positions).all(axis=1))
-    close = closest_points(positions[there], mesh.vertices, mesh.faces)
-    place = PointMap(close.faces, close.weights)
-    own = tuple(name for name, one in zip(names, there, strict=True) if one)
-    vertices = nearest_vertices(place, mesh)
-    placed = NamedPoints(own, place, close.points, vertices, confidence[there], close.distances)
-    return scatter_points(placed, names, there)
 
 
 def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
@@ -293,12 +277,18 @@ def correct_points(points: NamedPoints, corrections: Corrections, mesh: Mesh) ->
     """Return points with those in ``corrections`` put to the closest places of the surface, with confidence 1."""
     there = np.array([name in corrections for name in points.names])
     positions = np.array([corrections[name][0] if name in corrections else np.full(3, np.nan) for name in points.names])
-    new = _on_surface(points.names, positions, np.ones(len(there)), mesh)
+    new = points_on_surface(points.names, positions, mesh, np.ones(len(there)))
 
-    def merge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return np.where(there.reshape(-1, *[1] * (a.ndim - 1)), a, b)
+    def merge(after: np.ndarray, before: np.ndarray) -> np.ndarray:
+        return np.where(there if after.ndim == 1 else there[:, None], after, before)
 
-    return map_columns(points.names, merge, new, points)
+    return NamedPoints(
+        points.names,
+        PointMap(merge(new.place.faces, points.place.faces), merge(new.place.weights, points.place.weights)),
+        merge(new.points, points.points),
+        merge(new.vertices, points.vertices),
+        merge(new.confidence, points.confidence),
+    )
 
 
 def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> SpecimenLandmarks:
@@ -312,11 +302,8 @@ def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> Speci
 
 def drop_unsure(one: SpecimenLandmarks, min_confidence: float) -> SpecimenLandmarks:
     """Return the landmarks without those below a confidence, which become missing."""
-    keep = one.points.confidence >= min_confidence
-    kept = one.points
-    positions, vertices = kept.points.copy(), kept.vertices.copy()
-    positions[~keep], vertices[~keep] = np.nan, -1
-    return replace(one, points=replace(kept, points=positions, vertices=vertices))
+    points = one.points.without(~(one.points.confidence >= min_confidence))
+    return replace(one, points=replace(points, confidence=one.points.confidence))
 
 
 def given_landmarks(template: Template) -> SpecimenLandmarks:
@@ -390,18 +377,3 @@ def _space(given: LandmarkSet, placed: NamedPoints) -> str:
         return given.space
     here, turned = (np.nansum(np.abs(placed.points - given.points * sign)) for sign in (1.0, FLIP))
     return given.space if here <= turned else {LPS: RAS, RAS: LPS}[given.space]
-
-
-def _by_name(points: NamedPoints, names: Sequence[str]) -> np.ndarray:
-    where = dict(zip(points.names, points.points, strict=True))
-    return np.array([where.get(name, np.full(3, np.nan)) for name in names])
-
-
-def _all_names(points: NamedPoints, names: tuple[str, ...]) -> NamedPoints:
-    """Points in the order of ``names``; those that they lack have no place."""
-    check_names(points.names, "landmarks")
-    row = {name: i for i, name in enumerate(points.names)}
-    order = np.array([row[name] for name in names if name in row])
-    there = np.array([name in row for name in names])
-    chosen = map_columns(tuple(name for name in names if name in row), lambda values: values[order], points)
-    return scatter_points(chosen, names, there)

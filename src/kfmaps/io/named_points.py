@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, vertex_point_map
-from kfmaps.geometry.closest_points import ClosestPoints, closest_points
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import csv_text, table_cell, write_text
 from kfmaps.io.index_files import read_landmark_names, read_landmarks
@@ -45,9 +45,31 @@ class NamedPoints:
     names: tuple[str, ...]
     place: PointMap  # where they lie
     points: np.ndarray  # (q, 3): the same in space, in the mesh's unit
-    vertices: np.ndarray  # (q,): the nearest vertices; −1 of a point without counterpart, whose place in space is NaN
+    vertices: np.ndarray  # (q,): the nearest vertices; −1 of a missing point, of which the rest means nothing
     confidence: np.ndarray  # (q,): from 0 to 1, NaN where nothing is known
-    apart: np.ndarray  # (q,): how far the point that it was given as lies from the surface, in the mesh's unit
+
+    def without(self, lost: np.ndarray) -> NamedPoints:
+        """Return the points of which those that are ``lost (q,)`` are missing: NaN in space."""
+        return replace(
+            self,
+            points=np.where(lost[:, None], np.nan, self.points),
+            vertices=np.where(lost, -1, self.vertices),
+            confidence=np.where(lost, np.nan, self.confidence),
+        )
+
+
+def points_on_surface(
+    names: tuple[str, ...], positions: np.ndarray, mesh: Mesh, confidence: np.ndarray | None = None
+) -> NamedPoints:
+    """Return the points of a surface that are closest to ``positions (q, 3)``; those of NaN are missing.
+
+    ``confidence (q,)``: NaN where it is not given.
+    """
+    lost = ~np.isfinite(positions).all(axis=1)
+    found = closest_points(np.where(lost[:, None], mesh.vertices[0], positions), mesh.vertices, mesh.faces)
+    place = PointMap(found.faces, found.weights)
+    known = np.full(len(names), np.nan) if confidence is None else confidence
+    return NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known).without(lost)
 
 
 def read_named_points(path: str | Path, mesh: Mesh, *, specimen: str = "", space: str = "") -> NamedPoints:
@@ -81,62 +103,52 @@ def place_landmarks(given: LandmarkSet, mesh: Mesh, name: str, *, space: str = "
         n, vertices = len(mesh.vertices), given.vertices
         if vertices.min() < 0 or vertices.max() >= n:
             raise refuse(name, f"vertices from 0 to {n - 1}", f"{vertices.min()} to {vertices.max()}", "count from 0")
-        none = np.zeros(len(vertices))
-        place = vertex_point_map(vertices, mesh)
-        return NamedPoints(given.names, place, mesh.vertices[vertices], vertices, none + np.nan, none)
-    there = np.asarray(np.isfinite(given.points).all(axis=1))
-    if not there.any():
+        place, nothing = vertex_point_map(vertices, mesh), np.full(len(vertices), np.nan)
+        return NamedPoints(given.names, place, mesh.vertices[vertices], vertices, nothing)
+    if np.isnan(given.points).any(axis=1).all():
         raise refuse(name, "landmarks with coordinates", "missing ones only", "place them first")
-    points = given.points[there]
-    if space and given.space and space != given.space:
-        points = points * FLIP
-    unit = float(np.sqrt(surface_area(mesh)))
-    found = closest_points(points, mesh.vertices, mesh.faces)
-    if np.median(found.distances) > MAX_DISTANCE * unit:
-        found = _explained(points, mesh, found, name, bool(space and given.space))
-    names = tuple(label for label, one in zip(given.names, there, strict=True) if one)
-    far = np.flatnonzero(found.distances > NOTED_DISTANCE * unit)
+    sure, unit = bool(space and given.space), float(np.sqrt(surface_area(mesh)))
+    points = given.points * FLIP if sure and space != given.space else given.points
+    placed, apart = _placed(given.names, points, mesh)
+    if np.nanmedian(apart) > MAX_DISTANCE * unit:
+        remedy = _explain_distance(given.names, points, mesh, sure)
+        if remedy:
+            got = f"a median distance of {np.nanmedian(apart):.3g} (√area {unit:.3g})"
+            raise refuse(name, "landmarks on the surface", got, remedy)
+        text = "x and y are negated, since the landmarks lie on the mesh that way (LPS and RAS)"
+        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=3)
+        placed, apart = _placed(given.names, points * FLIP, mesh)
+    far = np.flatnonzero(apart > NOTED_DISTANCE * unit)
     if len(far):
-        told = ", ".join(f"{names[i]} ({found.distances[i]:.3g})" for i in far[:5])
+        told = ", ".join(f"{given.names[i]} ({apart[i]:.3g})" for i in far[:5])
         more = f" and {len(far) - 5} more" if len(far) > 5 else ""
         warnings.warn(f"{name}: far from the surface, in its unit: {told}{more}", KfmapsWarning, stacklevel=3)
-    place = PointMap(found.faces, found.weights)
-    known = np.full(len(names), np.nan)
-    placed = NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known, found.distances)
-    return placed if there.all() else scatter_points(placed, given.names, there)
+    return placed
 
 
-def _explained(points: np.ndarray, mesh: Mesh, found: ClosestPoints, name: str, sure: bool) -> ClosestPoints:
-    """Closest points once x and y have changed their sign, if that is it; else the reason why landmarks are far away.
+def _placed(names: tuple[str, ...], points: np.ndarray, mesh: Mesh) -> tuple[NamedPoints, np.ndarray]:
+    """The closest points of the surface, and how far they are from ``points``."""
+    placed = points_on_surface(names, points, mesh)
+    return placed, np.linalg.norm(placed.points - points, axis=1)
 
-    ``sure`` says that file and mesh name their coordinate systems.
+
+def _explain_distance(names: tuple[str, ...], points: np.ndarray, mesh: Mesh, sure: bool) -> str:
+    """Return why landmarks are far from the surface, and what to do.
+
+    Empty where only x and y are to be negated: where it is not ``sure``, since file and mesh do not both name their
+    coordinate systems.
     """
-    unit = float(np.sqrt(surface_area(mesh)))
-
-    def distance(values: np.ndarray) -> float:
-        return float(np.median(closest_points(values, mesh.vertices, mesh.faces).distances)) / unit
-
-    wanted, got = (
-        "landmarks on the surface",
-        f"a median distance of {np.median(found.distances):.3g} (√area {unit:.3g})",
-    )
-    if distance(points * FLIP) < NOTED_DISTANCE:
-        if sure:
-            remedy = "They lie on it with x and y negated: LPS and RAS are mixed up in the mesh or in the landmarks"
-            raise refuse(name, wanted, got, remedy)
-        text = "x and y are negated, since the landmarks lie on the mesh that way (LPS and RAS)"
-        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=4)
-        return closest_points(points * FLIP, mesh.vertices, mesh.faces)
+    mixed = "They lie on it with x and y negated: LPS and RAS are mixed up in the mesh or in the landmarks"
+    remedies: list[tuple[np.ndarray | float, str]] = [(FLIP, mixed if sure else "")]
     for signs in MIRRORS:
-        if distance(points * signs) < NOTED_DISTANCE:
-            axes = " and ".join(axis for axis, sign in zip("xyz", signs, strict=True) if sign < 0)
-            kind = "a mirror image of" if np.prod(signs) < 0 else "turned against"
-            remedy = f"They lie on it with {axes} negated: the mesh is {kind} what was digitized"
-            raise refuse(name, wanted, got, remedy)
-    for factor in FACTORS:
-        if distance(points * factor) < NOTED_DISTANCE:
-            raise refuse(name, wanted, got, f"They lie on it times {factor:g}. Bring both to one unit")
-    raise refuse(name, wanted, got, "check that they belong to this mesh, in its unit and coordinate system")
+        axes = " and ".join(axis for axis, sign in zip("xyz", signs, strict=True) if sign < 0)
+        kind = "a mirror image of" if np.prod(signs) < 0 else "turned against"
+        remedies.append((signs, f"They lie on it with {axes} negated: the mesh is {kind} what was digitized"))
+    remedies += [(factor, f"They lie on it times {factor:g}. Bring both to one unit") for factor in FACTORS]
+    for change, remedy in remedies:
+        if np.nanmedian(_placed(names, points * change, mesh)[1]) < NOTED_DISTANCE * np.sqrt(surface_area(mesh)):
+            return remedy
+    return "check that they belong to this mesh, in its unit and coordinate system"
 
 
 def read_landmark_pairs(
@@ -194,70 +206,34 @@ def transfer_points(
     vertices around the point.
 
     Of a map of parts ``known (n_t,)`` and ``common (n_s,)`` say which vertices have a counterpart. A point has none
-    where most of its face has none: its vertex is −1, its place and confidence are NaN.
+    where most of its face has none, and becomes a missing one.
     """
-    there = given.vertices >= 0
-    if not there.any():
-        return given
-    if not there.all():
-        some = transfer_points(
-            _select_points(given, there), source, target, place, confidence, back=back, known=known, common=common
-        )
-        return scatter_points(some, given.names, there)
-    images = point_positions(place, source)
+    images, lost = point_positions(place, source), given.vertices < 0
     if back:
-        at = np.einsum("qi,qij->qj", given.place.weights, images[target.faces[given.place.faces]])
-        found = closest_points(at, source.vertices, source.faces)
+        corners = target.faces[given.place.faces]
+        found = closest_points(
+            np.einsum("qi,qij->qj", given.place.weights, images[corners]), source.vertices, source.faces
+        )
         there, mesh, on_target = PointMap(found.faces, found.weights), source, given.place
         # Where a face is torn apart the mean of its corners lies on no surface: then the nearest corner's image.
         torn = found.distances > 0.02 * np.sqrt(surface_area(source))
         if known is not None:
-            torn |= ~known[target.faces[given.place.faces]].all(axis=1)
+            torn |= ~known[corners].all(axis=1)
         torn = np.flatnonzero(torn)
         there.faces[torn], there.weights[torn] = place.faces[given.vertices[torn]], place.weights[given.vertices[torn]]
     else:
         rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
-        found = closest_points(given.points, images, target.faces[rows])
+        found = closest_points(np.where(lost[:, None], images[0], given.points), images, target.faces[rows])
         there = on_target = PointMap(rows[found.faces], found.weights)
         mesh = target
     trust = np.full(len(given.names), np.nan)
     if confidence is not None:
         trust = np.einsum("qi,qi->q", on_target.weights, confidence[target.faces[on_target.faces]])
-    points, vertices = point_positions(there, mesh), nearest_vertices(there, mesh)
     own, on = (known, target) if back else (common, source)
     if own is not None:
-        lost = np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5
-        points[lost], vertices[lost], trust[lost] = np.nan, -1, np.nan
-    return NamedPoints(given.names, there, points, vertices, trust, found.distances)
-
-
-def _select_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
-    """Return those of the points that are ``chosen (q,)``."""
-    names = tuple(name for name, one in zip(given.names, chosen, strict=True) if one)
-    return map_columns(names, lambda values: values[chosen], given)
-
-
-def scatter_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
-    """Put points in the places of those ``chosen`` among all ``names``: the inverse of :func:`_select_points`.
-
-    All others, and those with the vertex −1, have no place.
-    """
-    there = given.vertices >= 0
-    rows = np.flatnonzero(chosen)[there]
-
-    def put(values: np.ndarray) -> np.ndarray:
-        result = np.full((len(names), *values.shape[1:]), -1 if values.dtype.kind == "i" else np.nan, values.dtype)
-        result[rows] = values[there]
-        return result
-
-    return map_columns(names, put, given)
-
-
-def map_columns(names: tuple[str, ...], change: Callable[..., np.ndarray], *given: NamedPoints) -> NamedPoints:
-    """Return points of which each array is what ``change`` makes of that of ``given``."""
-    columns = [(p.place.faces, p.place.weights, p.points, p.vertices, p.confidence, p.apart) for p in given]
-    faces, weights, *others = (change(*each) for each in zip(*columns, strict=True))
-    return NamedPoints(names, PointMap(faces, weights), *others)
+        lost = lost | (np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5)
+    carried = NamedPoints(given.names, there, point_positions(there, mesh), nearest_vertices(there, mesh), trust)
+    return carried.without(lost)
 
 
 def write_named_points(path: str | Path, points: NamedPoints, force: bool = False, space: str = "") -> None:
