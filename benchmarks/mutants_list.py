@@ -570,8 +570,8 @@ MUTANTS = tuple(
             "test_transfer_parts",
         ),
         (
-            "invert_precise_map(place, source, target, None if known.all() else known)",
-            "invert_precise_map(place, source, target)",
+            "invert_precise_map(self.place, *self.meshes, None if self.target.all() else self.target)",
+            "invert_precise_map(self.place, *self.meshes)",
             "test_transfer_parts",
         ),
         ("own[on.faces[given.place.faces]]) < 0.5", "own[on.faces[given.place.faces]]) < 0.0", "test_transfer_parts"),

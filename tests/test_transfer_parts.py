@@ -179,7 +179,7 @@ def test_of_a_list_without_overlap_the_distance_tells(made: types.SimpleNamespac
     some = Match(np.where(made.whole.vertices[:, 1] > np.median(made.whole.vertices[:, 1]), plain.target_to_source, -1))
     fewer = find_counterparts(some, made.part, made.whole)
     assert fewer.source.mean() < ways.source.mean()
-    assert not fewer.complete
+    assert not fewer.source.all()
 
 
 def test_the_summary_shows_how_much_both_have() -> None:

@@ -10,7 +10,7 @@ from scipy.spatial import KDTree
 
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, write_rows
-from kfmaps.batch.transfer_landmarks import GOOD, SpecimenLandmarks, Template, target_points
+from kfmaps.batch.transfer_landmarks import GOOD, SpecimenLandmarks, Template
 from kfmaps.batch.work import map_path
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, face_areas
@@ -18,6 +18,7 @@ from kfmaps.io import load_map
 from kfmaps.io.atomic import table_cell
 from kfmaps.io.landmark_files import fixed_rows
 from kfmaps.io.meshes import read_shape_mesh
+from kfmaps.io.partial_map import find_counterparts
 
 
 def local_differences(
@@ -61,8 +62,8 @@ def local_differences(
     after = np.bincount(at, size, len(points))
     with np.errstate(divide="ignore", invalid="ignore"):
         area = (after / after.sum()) / (before / before.sum())
-    median = np.array([_weighted_median(stretch[at == i], size[at == i]) for i in range(len(points))])
-    return np.where(np.isfinite(area) & (after > 0), area, np.nan), median
+    area = np.where(np.isfinite(area) & (after > 0), area, np.nan)
+    return area, np.array([_weighted_median(stretch[at == i], size[at == i]) for i in range(len(points))])
 
 
 def write_local_differences(
@@ -83,10 +84,10 @@ def write_local_differences(
             continue
         file = map_path(folder, pair.key)
         mesh = read_shape_mesh(one.scan)
-        place, known, common = target_points(load_map(file), template.mesh, mesh, str(file))
-        known = np.ones(len(mesh.vertices), dtype=bool) if known is None else known
-        common = np.ones(len(template.mesh.vertices), dtype=bool) if common is None else common
-        found = local_differences(place, template.mesh, mesh, template.points.points[rows], known, common)
+        ways = find_counterparts(load_map(file), template.mesh, mesh, str(file))
+        found = local_differences(
+            ways.place, template.mesh, mesh, template.points.points[rows], ways.target, ways.source
+        )
         cells = [[table_cell(x, ".4g") for x in values] for values in found]
         table += [[one.specimen, names[row], *values] for row, *values in zip(rows, *cells, strict=True)]
     write_rows(path, table)

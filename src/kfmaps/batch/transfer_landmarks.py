@@ -18,7 +18,7 @@ from kfmaps.collection.procrustes import generalized_procrustes, geometric_media
 from kfmaps.collection.semilandmarks import slide_semilandmarks
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io import check_map, load_map
+from kfmaps.io import load_map
 from kfmaps.io.landmark_files import (
     LPS,
     RAS,
@@ -38,7 +38,7 @@ from kfmaps.io.named_points import (
     points_on_surface,
     transfer_points,
 )
-from kfmaps.io.partial_map import find_counterparts, precise_points
+from kfmaps.io.partial_map import find_counterparts
 from kfmaps.matching.result import Match
 
 MATCHES = "matches"
@@ -245,20 +245,6 @@ def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
     return ""
 
 
-def target_points(
-    known: Match, source: Mesh, target: Mesh, name: str
-) -> tuple[PointMap, np.ndarray | None, np.ndarray | None]:
-    """Return the source's point for each target vertex, and which vertices of target and source have a counterpart.
-
-    The masks (n_t,) and (n_s,) are ``None`` where all have one. ``name``: how messages call the map.
-    """
-    if (known.target_to_source < 0).any():
-        ways = find_counterparts(known, source, target, name)
-        return ways.place, ways.target, ways.source
-    check_map(known, len(source.vertices), len(target.vertices), name)
-    return precise_points(known, source) or vertex_point_map(known.target_to_source, source), None, None
-
-
 def _carry_points(
     known: Match, points: NamedPoints, source: Mesh, target: Mesh, name: str, chance: float
 ) -> NamedPoints:
@@ -266,10 +252,10 @@ def _carry_points(
 
     The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map ``name``.
     """
-    place, there, common = target_points(known, source, target, name)
+    ways = find_counterparts(known, source, target, name)
     trust = getattr(known, "local_confidence", None)  # a list of vertices has none
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(trust)
-    carried = transfer_points(points, source, target, place, local, known=there, common=common)
+    carried = transfer_points(points, source, target, ways.place, local, known=ways.target, common=ways.source)
     return replace(carried, confidence=carried.confidence * chance)
 
 

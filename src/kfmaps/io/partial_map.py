@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -42,16 +43,29 @@ def point_map(found: np.ndarray | Match, source: Mesh, target_to_source: np.ndar
 class Counterparts:
     """A map of points in both directions as far as there are any."""
 
+    file: Match
+    meshes: tuple[Mesh, Mesh]  # source and target
     place: PointMap  # on the source, for each target vertex; means nothing where there is no counterpart
-    # On the target, for each source vertex; the nearest that something is mapped to where there is no counterpart.
-    back: PointMap
     target: np.ndarray  # (n_t,): which vertices have one
-    source: np.ndarray  # (n_s,)
 
-    @property
-    def complete(self) -> bool:
-        """Return whether all vertices have one."""
-        return bool(self.target.all() and self.source.all())
+    @cached_property
+    def back(self) -> PointMap:
+        """On the target, for each source vertex: the nearest that is mapped to where it has no counterpart."""
+        return invert_precise_map(self.place, *self.meshes, None if self.target.all() else self.target)
+
+    @cached_property
+    def source(self) -> np.ndarray:
+        """Which source vertices have one, (n_s,)."""
+        source, target = self.meshes
+        overlap = self.file.partial.overlap_source
+        if overlap is not None and np.shape(overlap) == (len(source.vertices),):
+            return np.asarray(overlap) > COMMON
+        if self.target.all():
+            return np.ones(len(source.vertices), dtype=bool)
+        corners = point_positions(self.place, source)[target.faces[self.back.faces]]
+        near = np.einsum("ti,tij->tj", self.back.weights, corners)
+        half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
+        return np.linalg.norm(near - source.vertices, axis=1) <= half
 
 
 def find_counterparts(found: Match, source: Mesh, target: Mesh, name: str = "map") -> Counterparts:
@@ -61,21 +75,4 @@ def find_counterparts(found: Match, source: Mesh, target: Mesh, name: str = "map
     one within half an edge of what the target's faces are mapped to; of one without −1 every vertex has.
     """
     points = check_map(found, len(source.vertices), len(target.vertices), name, lost=True)
-    known = points >= 0
-    place = point_map(found, source, points)
-    back = invert_precise_map(place, source, target, None if known.all() else known)
-    return Counterparts(place, back, known, _reached(found, source, target, place, back, known))
-
-
-def _reached(
-    found: Match, source: Mesh, target: Mesh, place: PointMap, back: PointMap, known: np.ndarray
-) -> np.ndarray:
-    overlap = found.partial.overlap_source
-    if overlap is not None and np.shape(overlap) == (len(source.vertices),):
-        return np.asarray(overlap) > COMMON
-    if known.all():
-        return np.ones(len(source.vertices), dtype=bool)
-    corners = point_positions(place, source)[target.faces[back.faces]]
-    near = np.einsum("ti,tij->tj", back.weights, corners)
-    half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
-    return np.linalg.norm(near - source.vertices, axis=1) <= half
+    return Counterparts(found, (source, target), point_map(found, source, points), points >= 0)

@@ -107,6 +107,6 @@ def _points(
     here, there = paths[::-1] if back else paths
     mesh, space = target if back else source, mesh_space(here)
     named = read_named_points(values, mesh, specimen=here.stem, space=space)
-    some = {} if ways.complete else {"known": ways.target, "common": ways.source}
-    carried = transfer_points(named, source, target, ways.place, confidence, back=back, **some)
+    known = {"known": ways.target, "common": ways.source}
+    carried = transfer_points(named, source, target, ways.place, confidence, back=back, **known)
     write_named_points(output, carried, force, mesh_space(there) or space)
