@@ -935,17 +935,17 @@ MUTANTS = tuple(
         ),
         ("limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)", "limbs, setting.shot)", "test_landmark_evidence -k mended"),
         (
-            "finer.copies, landmarks, (finer",
-            "finer.copies, None, (finer",
+            "guidance, setting.landmarks, swapped",
+            "guidance, setting.landmarks[:0], swapped",
             "test_landmark_evidence -k mended",
         ),
         (
             "query(shape.mesh.vertices[at])[1]",
-            "query(source.mesh.vertices[at])[1]",
+            "query(self.source.mesh.vertices[at])[1]",
             "test_landmark_evidence -k nearest_to_them",
         ),
-        ("self.landmarks[:, ::-1]", "self.landmarks", "test_landmark_evidence -k nearest_to_them"),
-        ("target_to_source, marks=on.landmarks)", "target_to_source)", "test_landmark_evidence -k between_refinements"),
+        ("pair.swapped(), landmarks[:, ::-1]", "pair.swapped(), landmarks", "test_landmark_evidence -k mended"),
+        ("target_to_source, marks=marks)", "target_to_source)", "test_landmark_evidence -k between_refinements"),
         (
             "if self.local_scaling else _LANDMARK_PULL",
             "if False else _LANDMARK_PULL",

@@ -29,7 +29,6 @@ from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.matching import match as matching
 from kfmaps.matching.registration_refine import register_map_on_proxies
 from kfmaps.matching.search import SearchResult, search_map
-from kfmaps.registration.alternating_registration import registration_pair
 
 SETS = "FAUST_r,SHREC19_r,TOSCA_r,catdog,TOSCA_nonIsometric_r,SMAL_r,SHREC07,TOPKIDS"
 POINTS = 400
@@ -98,8 +97,8 @@ def registered(found: SearchResult) -> SearchResult:
     if state is None or state.copies.coarse is None or found.registered_vertices is not None:
         return found
     shapes = state.source, state.copies.image
-    pair = registration_pair(*shapes, state.copies.coarse.copies, found.landmarks)
-    *_, one = register_map_on_proxies(found.functional_map, pair, matching._search_guidance(found, shapes))
+    guidance = matching._search_guidance(found, shapes)
+    *_, one = register_map_on_proxies(found.functional_map, state.copies.coarse, guidance, found.landmarks)
     if one is None:
         return found
     C, vertices = one.functional_map, one.registered_vertices

@@ -37,34 +37,35 @@ from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import (
-    RegistrationPair,
+    ProxyPair,
     _project_positions,
     alternating_registration,
     position_normal_guidance,
-    registration_pair,
+    proxy_pair,
 )
-from kfmaps.registration.evidence import FINE_VERTICES, coarse_copy, proxy_pair
+from kfmaps.registration.evidence import FINE_VERTICES, coarse_copy
 
 GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.evidence")
+
+NO_LANDMARKS = np.zeros((0, 2), dtype=np.int64)
 
 
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_registration_evidence.py, and takes seconds."""
-    monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     for module in (ranking, mending):
         monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
 
 
-def both(source, target) -> RegistrationPair:
+def both(source, target) -> ProxyPair:
     a, b = coarse_copy(source, FINE_VERTICES), coarse_copy(target, FINE_VERTICES)
     assert a is not None
     assert b is not None
-    return registration_pair(source, target, (a, b))
+    return proxy_pair(source, target, (a, b))
 
 
 def ended(*what) -> alternate.AlternatingResult:
-    *_, last = alternating_registration(*what)
+    *_, last = alternating_registration(*what, NO_LANDMARKS)
     return last
 
 
@@ -101,7 +102,7 @@ def test_bent_vertices_lie_where_the_truth_says(creatures):
 def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, monkeypatch):
     source, target, truth = creatures
     C = to_functional(truth, source.basis.truncate(40), target.basis.truncate(40))
-    rounds = [one.functional_map for one in alternating_registration(C, both(source, target), None)]
+    rounds = [one.functional_map for one in alternating_registration(C, both(source, target), None, NO_LANDMARKS)]
     assert len(rounds) == alternate._ROUNDS
     assert not np.array_equal(rounds[0], rounds[-1])
     monkeypatch.setattr(alternate, "WEIGHT", 0.0)
@@ -187,7 +188,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
     calls, apart = [], []
 
-    def made(C, on, led):
+    def made(C, on, led, _landmarks):
         calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T)))
         if (on.source is target) in apart:
             raise NotConverged("it fell apart")
@@ -236,7 +237,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
         asked.append(f"{pairing}")
         return vertices_of_match(pairing, *rest)
 
-    def made(C, on, led):
+    def made(C, on, led, _landmarks):
         calls.append(led.source.shape[1])
         begun.append(C)
         if len(calls) == 5:
@@ -269,7 +270,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
     good, bad = score_maps([("matched", True), ("before", True)], np.stack([C, turned]), None, on, 1)
 
-    def made(C, where, _led):
+    def made(C, where, *_rest):
         yield alternate.AlternatingResult(C, where.source.mesh.vertices)
         if not np.array_equal(C, turned.T):
             raise NotConverged("it fell apart")
@@ -293,7 +294,7 @@ def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
     good, bad = score_maps([("", True)] * 2, np.stack([C, turned]), None, on, 1)
     gap, rounds = good.quality.score - bad.quality.score, []
 
-    def made(C, where, _led):
+    def made(C, where, *_rest):
         for i in range(2):
             rounds.append(
                 (where.source is target, np.array_equal(C, turned.T if where.source is target else turned), i)
@@ -570,13 +571,13 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
     asked = []
     usual = mending.alternating_registration
 
-    def told(C, pair, guidance):
+    def told(C, pair, guidance, landmarks):
         asked.append((pair.source, guidance.source, guidance.target))
-        return usual(C, pair, guidance)
+        return usual(C, pair, guidance, landmarks)
 
     monkeypatch.setattr(mending, "alternating_registration", told)
     for swapped, moved, other in ((True, target, source), (False, source, target)):
-        *_, found = mending.register_map_on_proxies(C, pair, led, swapped)
+        *_, found = mending.register_map_on_proxies(C, pair, led, NO_LANDMARKS, swapped)
         assert found is not None
         assert error(found.functional_map, source, target, truth) < 0.05
         assert found.registered_vertices.shape == moved.mesh.vertices.shape
@@ -590,7 +591,7 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
         raise NotConverged("it fell apart")
 
     monkeypatch.setattr(mending, "alternating_registration", falls_apart)
-    assert [one is None for one in mending.register_map_on_proxies(C, pair, led)] == [False, True]
+    assert [one is None for one in mending.register_map_on_proxies(C, pair, led, NO_LANDMARKS)] == [False, True]
 
 
 def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_images(creatures, monkeypatch):

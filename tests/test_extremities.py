@@ -30,7 +30,8 @@ from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import find_self_maps
-from kfmaps.registration.evidence import _MAX_ENERGY, _MIN_ENERGY, PATIENT, coarse_copy, deform, proxy_pair
+from kfmaps.registration.alternating_registration import proxy_pair
+from kfmaps.registration.evidence import _MAX_ENERGY, _MIN_ENERGY, PATIENT, coarse_copy, deform
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
 from test_search import SMALL

@@ -16,7 +16,6 @@ from kfmaps.fmap.convert import to_functional
 from kfmaps.geometry.mesh import MIRROR, unit_area
 from kfmaps.geometry.sampling import stratified_vertices
 from kfmaps.matching import match as matching
-from kfmaps.matching import ranking as ranks
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import score_maps
@@ -34,9 +33,9 @@ from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.alternating_registration import (
     AlternatingResult,
     alternating_registration,
-    registration_pair,
+    proxy_pair,
 )
-from kfmaps.registration.evidence import coarse_copy, proxy_pair
+from kfmaps.registration.evidence import coarse_copy
 from kfmaps.registration.nonrigid_icp import _LANDMARK_PULL, _SCALED_LANDMARK_PULL, NonRigid, mesh_pair
 from kfmaps.shape import mirror_image
 
@@ -206,21 +205,19 @@ def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
     a, b = coarse_copy(source, 500), coarse_copy(target, 400)
     assert a is not None
     assert b is not None
-    on = registration_pair(source, target, (a, b), at)
+    on = proxy_pair(source, target, (a, b))
+    marks = on.nearest(at)
     for side, (shape, copy) in enumerate(((source, a), (target, b))):
         off = np.linalg.norm(copy.mesh.vertices - shape.mesh.vertices[at[:, side]][:, None], axis=2)
-        chosen = off[np.arange(30), on.landmarks[:, side]]
+        chosen = off[np.arange(30), marks[:, side]]
         np.testing.assert_array_equal(chosen, off.min(axis=1))
         assert 0 < chosen.max() < 0.1
-    image = registration_pair(source, mirror_image(target), (a, b.mirrored()), at)
-    np.testing.assert_array_equal(image.landmarks, on.landmarks)
-    there = image.copies[1].mesh.vertices[image.landmarks[:, 1]]
+    image = proxy_pair(source, mirror_image(target), (a, b.mirrored()))
+    np.testing.assert_array_equal(image.nearest(at), marks)
+    there = image.copies[1].mesh.vertices[marks[:, 1]]
     assert np.linalg.norm(there - target.mesh.vertices[at[:, 1]] * MIRROR, axis=1).max() < 0.1
-    back = on.swapped()
-    again = registration_pair(target, source, (b, a), at[:, ::-1])
-    np.testing.assert_array_equal(back.landmarks, again.landmarks)
-    assert back.landmarks[0].tolist() == on.landmarks[0].tolist()[::-1]
-    assert registration_pair(source, target, (a, b)).landmarks.shape == (0, 2)
+    np.testing.assert_array_equal(on.swapped().nearest(at[:, ::-1]), marks[:, ::-1])
+    assert on.nearest(at[:0]).shape == (0, 2)
 
 
 def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None:
@@ -228,14 +225,13 @@ def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None
     a, b = coarse_copy(source, 500), coarse_copy(target, 500)
     assert a is not None
     assert b is not None
-    on = registration_pair(source, target, (a, b))
+    on = proxy_pair(source, target, (a, b))
     rows = stratified_vertices(target.basis, 1200, 0)
     rows = rows[np.isin(rows, b.vertices) & np.isin(truth[rows], a.vertices)][:12]
     at = np.stack([truth[rows], rows], axis=1)
-    led = replace(on, landmarks=registration_pair(source, target, (a, b), at).landmarks)
     off = []
-    for where in (on, led):
-        *_, made = alternating_registration(slid, where, None)
+    for landmarks in (at[:0], at):
+        *_, made = alternating_registration(slid, on, None, landmarks)
         bent = made.registered_vertices
         off.append(np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1))
     assert off[1][rows].mean() < 0.6 * off[0][rows].mean()
@@ -314,7 +310,6 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
 def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     """Each way round, with those that are not doubted."""
     source, target, truth = creatures
-    monkeypatch.setattr(ranks, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
@@ -327,8 +322,8 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
         leads.append((what[2], what[5]))
         return usual(*what)
 
-    def made(C: np.ndarray, where: Any, *_rest: Any) -> Iterator[AlternatingResult]:
-        begun.append([c.vertices[i] for c, i in zip(where.copies, where.landmarks.T, strict=True)])
+    def made(C: np.ndarray, where: Any, _led: Any, landmarks: np.ndarray) -> Iterator[AlternatingResult]:
+        begun.append(landmarks.T)
         yield AlternatingResult(C, where.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "build_guidance", lead)

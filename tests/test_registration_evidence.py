@@ -28,11 +28,11 @@ from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import without_landmarks
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import evidence as looks
+from kfmaps.registration.alternating_registration import proxy_pair
 from kfmaps.registration.evidence import (
     _shot_difference,
     _surface_samples,
     coarse_copy,
-    proxy_pair,
     registered_shot_error,
 )
 
@@ -58,7 +58,7 @@ def at_rest(creatures):
     a, b = (coarse_copy(shape) for shape in creatures[:2])
     assert a is not None
     assert b is not None
-    return proxy_pair(creatures[0], creatures[1], (a, b), with_shot=True)
+    return proxy_pair(creatures[0], creatures[1], (a, b))
 
 
 def functional(points, source, target, k=40):
@@ -157,7 +157,6 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
@@ -208,7 +207,7 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
     a, b = coarse_copy(source), coarse_copy(target)
     assert a is not None
     assert b is not None
-    on = proxy_pair(source, target, (a, b), with_shot=True)
+    on = proxy_pair(source, target, (a, b))
     seen = []
     for height in (0.0, 0.1, 0.7, 3.0):
         what = registered_shot_error(functional(exchanged(knees, height), source, target, 60), on)
@@ -229,7 +228,6 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
     monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
-    monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on), 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]

@@ -20,15 +20,8 @@ from kfmaps.matching.candidates import by_score, distinct_maps, map_distance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
-from kfmaps.registration.evidence import (
-    FINE_VERTICES,
-    PATIENT,
-    ProxyPair,
-    coarse_copy,
-    deform,
-    proxy_pair,
-    registered_shot_error,
-)
+from kfmaps.registration.alternating_registration import ProxyPair, proxy_pair
+from kfmaps.registration.evidence import FINE_VERTICES, PATIENT, coarse_copy, deform, registered_shot_error
 from kfmaps.shape import Shape, mirror_image
 
 BENT = 3
@@ -76,11 +69,11 @@ class ProxyCache:
 
     @cached_property
     def fine(self) -> ProxyPair | None:
-        """Finer ones, with SHOT."""
+        """Finer ones."""
         a, b = coarse_copy(self.source, FINE_VERTICES), coarse_copy(self.target, FINE_VERTICES)
         if a is None or b is None:
             return None
-        return proxy_pair(self.source, self.image, (a, b.mirrored() if self.mirrored else b), with_shot=True)
+        return proxy_pair(self.source, self.image, (a, b.mirrored() if self.mirrored else b))
 
 
 def ranking(

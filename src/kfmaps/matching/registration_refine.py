@@ -33,14 +33,8 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.ranking import BENT, ProxyCache, in_order, normalize_errors, reference_values, score_registered
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
-from kfmaps.registration.alternating_registration import (
-    AlternatingResult,
-    RegistrationPair,
-    alternating_registration,
-    registration_pair,
-)
-from kfmaps.registration.evidence import ProxyPair, registered_shot_error
-from kfmaps.shape import Shape
+from kfmaps.registration.alternating_registration import AlternatingResult, ProxyPair, alternating_registration
+from kfmaps.registration.evidence import registered_shot_error
 
 FIRST = 2
 """Maps that are repaired, whether or not they differ."""
@@ -52,9 +46,6 @@ PAIRED = 3
 class RepairSetting:
     """What the repairs of all candidates of a pair share."""
 
-    source: Shape
-    target: Shape
-    pair: RegistrationPair
     proxies: ProxyPair
     samples: SamplePair
     landmarks: np.ndarray
@@ -104,10 +95,8 @@ def refine_by_registration(
     finer = copies.fine
     if finer is None:
         return ranked, ()
-    source, target = copies.source, copies.image
-    pair = registration_pair(source, target, finer.copies, landmarks, (finer.forth, finer.back))
-    graphs = geodesic_graph(source.mesh, 1), geodesic_graph(target.mesh, 1)
-    setting = RepairSetting(source, target, pair, finer, samples, landmarks, copies.shot_guidance, graphs)
+    graphs = geodesic_graph(copies.source.mesh, 1), geodesic_graph(copies.image.mesh, 1)
+    setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs)
     near, rest = repairable(ranked, samples.source)
     begun = _begin(near, samples)
     ended, behind = _repair_all(setting, begun, near, threads, progress)
@@ -179,10 +168,10 @@ def _repair_rounds(
 
     ``swapped``: whether the target is registered onto the source.
     """
-    source, target = setting.source, setting.target
+    source, target = setting.proxies.source, setting.proxies.target
     limbs = extremities and extremities.guide(source.mesh, target.mesh, setting.graphs)
     guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
-    for found in register_map_on_proxies(old.functional_map, setting.pair, guidance, swapped):
+    for found in register_map_on_proxies(old.functional_map, setting.proxies, guidance, setting.landmarks, swapped):
         if found is None:
             yield None
             return
@@ -192,18 +181,22 @@ def _repair_rounds(
 
 
 def register_map_on_proxies(
-    C: np.ndarray, pair: RegistrationPair, guidance: DescriptorGuidance | None, swapped: bool = True
+    C: np.ndarray,
+    pair: ProxyPair,
+    guidance: DescriptorGuidance | None,
+    landmarks: np.ndarray,
+    swapped: bool = True,
 ) -> Iterator[AlternatingResult | None]:
     """Yield the rounds of :func:`alternating_registration` of a map, ``None`` as the last where a proxy falls apart.
 
-    ``C (k_t, k_s)``; ``guidance``: on all vertices; ``swapped``: whether the target is registered to the source: the
-    vertices of the result are then the target's.
+    ``C (k_t, k_s)``; ``guidance``: on all vertices; ``landmarks (l, 2)``; ``swapped``: whether the target is
+    registered to the source: the vertices of the result are then the target's.
     """
     if swapped:
-        C, pair = C.T, pair.swapped()
+        C, pair, landmarks = C.T, pair.swapped(), landmarks[:, ::-1]
         guidance = guidance and guidance.swapped()
     try:
-        for found in alternating_registration(C, pair, guidance):
+        for found in alternating_registration(C, pair, guidance, landmarks):
             yield replace(found, functional_map=found.functional_map.T) if swapped else found
     except NotConverged:
         yield None

@@ -61,7 +61,6 @@ from kfmaps.matching.score import (
     verdict,
 )
 from kfmaps.matching.self_maps import with_self_maps
-from kfmaps.registration.alternating_registration import registration_pair
 from kfmaps.shape import Shape, clean_shape
 
 _FEWER = 100
@@ -269,9 +268,7 @@ def _repair_best(state: _Search) -> _Search:
     if copies.coarse is None:
         return state
     guidance = build_guidance(state.source, copies.image, state.pairs, shot=copies.shot_guidance)
-    coarse = copies.coarse
-    pair = registration_pair(state.source, copies.image, coarse.copies, state.pairs, (coarse.forth, coarse.back))
-    *_, one = register_map_on_proxies(best.functional_map, pair, guidance)
+    *_, one = register_map_on_proxies(best.functional_map, copies.coarse, guidance, state.pairs)
     if one is None:
         return state
     C, threads = one.functional_map[None, :FINE, :FINE], state.config.threads

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -22,7 +22,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis
-from kfmaps.registration.deformable import deformable_mesh
+from kfmaps.registration.deformable import closest_point_query, deformable_mesh
 from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid, mesh_pair
 from kfmaps.shape import Shape
 
@@ -37,20 +37,32 @@ _NORMAL_WEIGHT = 0.3  # distance at unit area that counts as much as normals tha
 
 
 @dataclass(frozen=True, eq=False)
-class RegistrationPair:
-    """Copies of both shapes with their functions, and their landmarks ``(l, 2)``; made by :func:`registration_pair`."""
+class ProxyPair:
+    """Coarse copies of two shapes, ready to be bent onto each other as maps say; made by :func:`proxy_pair`."""
 
     source: Shape
     target: Shape
     copies: tuple[CoarseProxy, CoarseProxy]
-    bases: tuple[SampledBasis, SampledBasis]
-    landmarks: np.ndarray
-    ways: tuple[MeshPair, MeshPair]  # the source's copy to be bent onto the target's, and the other way
+    forth: MeshPair  # the source's copy to be bent onto the target's, and the other way
+    back: MeshPair
 
-    def swapped(self) -> RegistrationPair:
+    @cached_property
+    def bases(self) -> tuple[SampledBasis, SampledBasis]:
+        """The bases of both shapes at the vertices of their copies."""
+        (a, b), source, target = self.copies, self.source.basis, self.target.basis
+        return _sampled(source, a), _sampled(target, b)
+
+    def swapped(self) -> ProxyPair:
         """Return the same for maps the other way."""
-        (a, b), (on_a, on_b), (forth, back) = self.copies, self.bases, self.ways
-        return RegistrationPair(self.target, self.source, (b, a), (on_b, on_a), self.landmarks[:, ::-1], (back, forth))
+        return ProxyPair(self.target, self.source, self.copies[::-1], self.back, self.forth)
+
+    def nearest(self, landmarks: np.ndarray) -> np.ndarray:
+        """Return the vertices of the copies that are nearest to ``landmarks (l, 2)``, (l, 2)."""
+        near = [
+            KDTree(shape.mesh.vertices[copy.vertices]).query(shape.mesh.vertices[at])[1]
+            for shape, copy, at in zip((self.source, self.target), self.copies, landmarks.T, strict=True)
+        ]
+        return np.stack(near, axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,44 +73,27 @@ class AlternatingResult:
     registered_vertices: np.ndarray  # (n_s, 3): the source's, on the target
 
 
-def registration_pair(
-    source: Shape,
-    target: Shape,
-    copies: tuple[CoarseProxy, CoarseProxy],
-    landmarks: np.ndarray | None = None,
-    ways: tuple[MeshPair, MeshPair] | None = None,
-) -> RegistrationPair:
-    """Return what an alternating registration of two shapes works on.
-
-    ``landmarks (l, 2)``: vertices of the shapes, of which the nearest of the copies are taken; ``ways``: the copies
-    ready to be bent onto each other, where they are so already.
-    """
-    marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    near = [
-        KDTree(shape.mesh.vertices[copy.vertices]).query(shape.mesh.vertices[at])[1]
-        for shape, copy, at in zip((source, target), copies, marks.T, strict=True)
-    ]
-    bases = _sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])
-    if ways is None:
-        a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
-        ways = mesh_pair(a, b.mesh), mesh_pair(b, a.mesh)
-    return RegistrationPair(source, target, copies, bases, np.stack(near, axis=1), ways)
+def proxy_pair(source: Shape, target: Shape, copies: tuple[CoarseProxy, CoarseProxy]) -> ProxyPair:
+    """Return coarse ``copies`` of two shapes ready to be registered, so that what depends on no map is found once."""
+    a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
+    on_a, on_b = (closest_point_query(body.mesh, around=body.around) for body in (a, b))
+    return ProxyPair(source, target, copies, mesh_pair(a, b.mesh, on_b), mesh_pair(b, a.mesh, on_a))
 
 
 def alternating_registration(
-    C: np.ndarray, on: RegistrationPair, led: DescriptorGuidance | None
+    C: np.ndarray, on: ProxyPair, led: DescriptorGuidance | None, landmarks: np.ndarray
 ) -> Iterator[AlternatingResult]:
     """Improve a map between unlike shapes by registrations and refinements in turn; yields what each round has made.
 
-    ``C (k_t, k_s)``; ``led``: guides the refinements, for all vertices.
+    ``C (k_t, k_s)``; ``led``: guides the refinements, for all vertices; ``landmarks (l, 2)``: vertices of the shapes.
     """
     a, b = on.copies
     k = min(*(len(basis.eigenvalues) for basis in on.bases), _REFINE.stop)
     refine = partial(replace(_REFINE, stop=k, start=min(_REFINE.start, k)), threads=1)  # maps are repaired side by side
-    here = led and led.at(a.vertices, b.vertices)
+    here, marks = led and led.at(a.vertices, b.vertices), on.nearest(landmarks)
     found = refine(C, *on.bases, guide=here)
     for _ in range(_ROUNDS):
-        bent = FIT.bent(on.ways[0], found.target_to_source, marks=on.landmarks)[0]
+        bent = FIT.bent(on.forth, found.target_to_source, marks=marks)[0]
         lie = position_normal_guidance(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=combine_guidance([(1.0, here), (WEIGHT, lie)]))
         yield AlternatingResult(to_numpy(found.functional_map), _project_positions(bent, on.bases[0], on.source.basis))

@@ -22,9 +22,8 @@ from kfmaps.geometry.arap import arap_energy, arap_energy_per_vertex
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import stratified_vertices
-from kfmaps.registration.alternating_registration import FIT, position_normals
-from kfmaps.registration.deformable import closest_point_query, deformable_mesh
-from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid, mesh_pair
+from kfmaps.registration.alternating_registration import FIT, ProxyPair, position_normals
+from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid
 from kfmaps.shape import Shape
 
 FINE_VERTICES = 3000
@@ -42,18 +41,6 @@ class SurfaceSamples:
 
     position_normals: np.ndarray
     descriptors: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
-class ProxyPair:
-    """Coarse copies of two shapes, ready to be bent onto each other as maps say; made by :func:`proxy_pair`."""
-
-    source: Shape
-    target: Shape
-    copies: tuple[CoarseProxy, CoarseProxy]
-    forth: MeshPair  # the source's copy and the target's, and the other way
-    back: MeshPair
-    samples: tuple[SurfaceSamples, SurfaceSamples] | None = None  # of the copies at rest, where SHOT was asked for
 
 
 @dataclass(frozen=True)
@@ -80,19 +67,6 @@ def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
     return None if len(copy.mesh.faces) < _MIN_FACES else copy
 
 
-def proxy_pair(
-    source: Shape, target: Shape, copies: tuple[CoarseProxy, CoarseProxy], with_shot: bool = False
-) -> ProxyPair:
-    """Return coarse ``copies`` of two shapes ready to be registered, so that what depends on no map is found once.
-
-    ``with_shot``: whether :func:`registered_shot_error` will be asked for.
-    """
-    a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
-    on_a, on_b = (closest_point_query(body.mesh, around=body.around) for body in (a, b))
-    samples = (_surface_samples(a.mesh), _surface_samples(b.mesh)) if with_shot else None
-    return ProxyPair(source, target, copies, mesh_pair(a, b.mesh, on_b), mesh_pair(b, a.mesh, on_a), samples)
-
-
 def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> DeformationEnergy:
     """Return how far each copy must bend to follow a functional map.
 
@@ -108,12 +82,10 @@ def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> Deformatio
 def registered_shot_error(C: np.ndarray, pair: ProxyPair) -> float | None:
     """Return the mean squared difference of SHOT, from 0 to 2, of each copy bent onto the other as a map says.
 
-    ``C (k_t, k_s)``; ``pair``: with SHOT. Returns the mean of both directions, or that of one where the other copy
-    falls apart; ``None`` where both do.
+    ``C (k_t, k_s)``. Returns the mean of both directions, or that of one where the other copy falls apart; ``None``
+    where both do.
     """
-    assert pair.samples is not None
-    forth, back = _point_maps(C, pair)
-    errors = _bent_shot_error(*forth, pair.samples[1]), _bent_shot_error(*back, pair.samples[0])
+    errors = [_bent_shot_error(*way) for way in _point_maps(C, pair)]
     known = [error for error in errors if error is not None]
     return sum(known) / len(known) if known else None
 
@@ -149,11 +121,12 @@ def _deform_one(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> Deformatio
     return DeformationEnergy(min(max(total, _MIN_ENERGY), _MAX_ENERGY), strain)
 
 
-def _bent_shot_error(pair: MeshPair, points: np.ndarray, samples: SurfaceSamples) -> float | None:
+def _bent_shot_error(pair: MeshPair, points: np.ndarray) -> float | None:
     try:
         x = _bent(FIT, pair, points)
     except NotConverged:
         return None
+    samples = pair.once("SHOT", lambda: _surface_samples(pair.target))
     return _shot_difference(samples, Mesh(x, pair.body.mesh.faces))
 
 
