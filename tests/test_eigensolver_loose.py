@@ -25,7 +25,7 @@ def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:
 
 def test_loose_pairs_are_nearly_the_exact_ones() -> None:
     stiffness, mass = operators(unit_area(blob(1500)))
-    exact, loose = (smallest_eigenpairs(stiffness, mass, 60, tolerance=t, method="block") for t in (1e-10, 1e-2))
+    exact, loose = (smallest_eigenpairs(stiffness, mass, 60, tolerance=t) for t in (1e-10, 1e-2))
     assert not np.array_equal(loose.values, exact.values)
     np.testing.assert_allclose(loose.values, exact.values, rtol=1e-4, atol=1e-4)
     np.testing.assert_allclose(loose.vectors.T @ (mass[:, None] * loose.vectors), np.eye(60), atol=1e-4)
@@ -41,7 +41,7 @@ def test_what_is_told_of_the_progress_ends_near_one(k: int, tolerance: float) ->
     """The solves that are counted are about as many as were expected, and no fewer are expected than there are."""
     told: list[float] = []
     operator = operators(unit_area(blob(1500)))
-    smallest_eigenpairs(*operator, k, tolerance=tolerance, method="block", progress=told.append)
+    smallest_eigenpairs(*operator, k, tolerance=tolerance, progress=told.append)
     assert 0.7 < told[-1] < 0.99
     assert len(set(told)) == len(told)
 
@@ -50,12 +50,12 @@ def test_loose_search_misses_no_copies() -> None:
     stiffness, mass = operators(unit_area(blob(80)))
     one = eigh(stiffness.toarray(), np.diag(mass), eigvals_only=True)
     copies = csr_array(block_diag([stiffness] * 20))
-    pairs = smallest_eigenpairs(copies, np.tile(mass, 20), 50, tolerance=1e-2, method="block")
+    pairs = smallest_eigenpairs(copies, np.tile(mass, 20), 50, tolerance=1e-2)
     np.testing.assert_allclose(pairs.values, np.repeat(one, 20)[:50], rtol=1e-3, atol=1e-3)
 
 
 def test_loose_multiplets_of_a_sphere() -> None:
-    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64, tolerance=1e-2, method="block")
+    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64, tolerance=1e-2)
     degree = np.repeat(np.arange(8), 2 * np.arange(8) + 1)
     np.testing.assert_allclose(pairs.values, degree * (degree + 1) * 4 * np.pi, rtol=0.02, atol=1e-3)
 
@@ -66,11 +66,11 @@ def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: p
     ends = np.random.default_rng(0).permutation(1500).reshape(-1, 2)
     edges = csr_array((np.tile([1.0, -1.0], 750), ends.ravel(), 2 * np.arange(751)), shape=(750, 1500))
     rough = stiffness + 1e6 * edges.T @ edges
-    loose = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2, method="block")
-    exact = smallest_eigenpairs(csr_array(rough), mass, 40, method="block")
+    loose = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2)
+    exact = smallest_eigenpairs(csr_array(rough), mass, 40)
     assert np.array_equal(loose.values, exact.values)
     monkeypatch.setattr(pencil, "_MAX_LOOSE_RESIDUAL", np.inf)
-    again = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2, method="block")
+    again = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2)
     assert np.array_equal(again.values, exact.values)
 
 

@@ -60,14 +60,14 @@ def smallest_eigenpairs(
     tolerance: float = EXACT,
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
-    method: str = "auto",
     progress: Callable[[float], None] | None = None,
 ) -> Eigenpairs:
     """Return the ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
 
-    Every pair is checked against the tolerance before it is returned, and the block method looks for eigenvalues that
-    it may have missed (repeated ones of identical components, clusters of spheres). The same input gives the same
-    answer, whatever the number of threads.
+    Where the Krylov basis would not fit, of a few hundred rows, the whole spectrum is computed instead. Every pair is
+    checked against the tolerance before it is returned, and block Lanczos looks for eigenvalues that it may have missed
+    (repeated ones of identical components, clusters of spheres). The same input gives the same answer, whatever the
+    number of threads.
 
     Parameters
     ----------
@@ -89,9 +89,6 @@ def smallest_eigenpairs(
     threads : int, optional
         Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core. BLAS is held
         to one.
-    method : {"auto", "block", "dense"}
-        ``"block"``: own block Lanczos with full reorthogonalisation. ``"dense"``: the whole spectrum, for a few hundred
-        rows. ``"auto"``: dense where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
     progress : callable, optional
         Told about how much is done, from 0 to 1, as the blocks of the basis grow.
 
@@ -108,10 +105,10 @@ def smallest_eigenpairs(
         When a residual stays above the tolerance or the shifted matrix is singular.
     """
     matrix, mass = _check_pencil(stiffness, mass)
-    method = _choose_method(method, len(mass), check_count(k, "k", 1, len(mass)))
+    check_count(k, "k", 1, len(mass))
     check_positive(tolerance, "tolerance")
     with one_blas_thread(), _map_of_threads(len(mass), threads) as each:
-        return _solve(matrix, mass, k, method, tolerance, rng, each, progress)
+        return _solve(matrix, mass, k, tolerance, rng, each, progress)
 
 
 def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array, np.ndarray]:
@@ -131,13 +128,6 @@ def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array,
     return matrix, mass
 
 
-def _choose_method(method: str, n: int, k: int) -> str:
-    """Return "dense" or "block"."""
-    if method not in ("auto", "block", "dense"):
-        raise refuse("method", "one of auto, block, dense", repr(method), "choose one of them")
-    return "dense" if method == "dense" or n <= max(400, 4 * k + 200) else "block"
-
-
 @contextmanager
 def _map_of_threads(rows: int, threads: int | None) -> Iterator[Map]:
     """``map``, or that of a pool of threads where these pay."""
@@ -152,7 +142,6 @@ def _solve(
     matrix: csr_array,
     mass: np.ndarray,
     k: int,
-    method: str,
     tolerance: float,
     rng: int | np.random.Generator,
     each: Map,
@@ -164,7 +153,8 @@ def _solve(
     order = fill_order(matrix)
     if order is not None:
         matrix, floored = matrix[order][:, order], floored[order]
-    if method == "block" and tolerance >= LOOSE:
+    dense = len(mass) <= max(400, 4 * k + 200)
+    if not dense and tolerance >= LOOSE:
         rough = _nearly(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
         if rough is not None:
             return _signed(rough, order)
@@ -172,7 +162,7 @@ def _solve(
     pencil = _Pencil(matrix, floored, order is not None, each)
     if progress is not None:
         pencil.solve = _counted(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
-    vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+    vectors = _vectors(pencil, k, dense, tolerance, np.random.default_rng(rng))
     found = pencil.residuals(vectors)
     for _ in range(2):  # specks and caps make the Lanczos basis lose digits
         if not len(_missed(pencil, vectors, *found, tolerance)):
@@ -272,10 +262,10 @@ class _Pencil:
         return values, np.linalg.norm(images, axis=0) / ((values + self.unit) * np.linalg.norm(weighted, axis=0))
 
 
-def _vectors(pencil: _Pencil, k: int, method: str, tolerance: float, rng: np.random.Generator) -> np.ndarray:
+def _vectors(pencil: _Pencil, k: int, dense: bool, tolerance: float, rng: np.random.Generator) -> np.ndarray:
     """Eigenvectors (n, k), orthonormal in the mass, in no strict order."""
     n = len(pencil.mass)
-    if method == "dense":
+    if dense:
         inverse = pencil.inverse(np.eye(n))
         _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
         return _improved(pencil, vectors)
