@@ -9,9 +9,11 @@ import pytest
 from scipy.spatial import KDTree
 
 from kfmaps import datasets
+from kfmaps.config import Partial
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
-from kfmaps.geometry.mesh import surface_area, unit_area
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.geometry.mesh import surface_area, unit_area, vertex_areas
 from kfmaps.matching.partial import candidates as contest
 from kfmaps.matching.partial.candidates import (
     _ROUNDS,
@@ -21,11 +23,14 @@ from kfmaps.matching.partial.candidates import (
     make_candidate,
     margin,
 )
-from kfmaps.matching.partial.match_partial import _place_by_landmarks
+from kfmaps.matching.partial.match_partial import _place_by_landmarks, match_partial
+from kfmaps.matching.partial.registration import register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, Placement, shot_similarity
 from kfmaps.matching.score import SCORE
+from kfmaps.shape import prepare
+from test_search import SMALL
 
 GUARDS = ("kfmaps.matching.partial",)
 
@@ -141,19 +146,42 @@ def test_a_small_part_needs_a_larger_margin():
         assert margin([best], 1) == most
 
 
+def test_a_candidate_pays_for_landmarks_that_it_contradicts(half, monkeypatch):
+    """Those that end farther from their places than a limit."""
+    on, places, scale = half
+    off, limit = np.zeros_like(places), SCORE.part.max_landmark_error
+    marked = PartPair(replace(on.part, n_landmarks=3), replace(on.whole, n_landmarks=3))
+    assert marked.part.landmarks.tolist() == marked.part.samples[:3].tolist()
+    places = places.copy()
+    places[marked.part.landmarks] = on.whole.mesh.vertices[marked.whole.landmarks]
+    off[marked.part.landmarks, 0] = [0.0, 0.99 * limit, 1.01 * limit]
+    plain = register_part(on, scale, *np.tile(places[on.part.samples], (2, 1, 1)), np.ones(len(on.part.samples)), True)
+    monkeypatch.setattr(contest, "register_part", lambda *_, **__: replace(plain, vertices=places + off))
+    placed = Placement(scale, TRIALS[0], Assignment(np.arange(100), np.ones(100), 1.0), np.ones((100, 300)))
+    found, free = make_candidate(placed, marked), make_candidate(placed, on)
+    assert (found.evidence.missed_landmarks, free.evidence.missed_landmarks) == (1, 0)
+    assert found.score == pytest.approx(free.score - SCORE.part.w_landmark)
+
+
+COST = SCORE.part.w_landmark
+
+
 @pytest.mark.parametrize(
-    ("wrong", "first", "second", "others", "rejected"),
+    ("wrong", "first", "others", "second", "then", "again"),
     [
-        ([], 20.0, 99.0, None, []),  # all is well: no second placement
-        ([1], 20.0, 21.0, [0, 2], [1]),  # one is wrong: the others place the part
-        ([1], 20.0, 19.0, [0, 2], [1]),
-        ([0, 2], 20.0, 21.0, [], [0, 2]),  # most are wrong: none does
-        ([], 5.0, 20.0, [], [0, 1, 2]),  # it fits nowhere with them
-        ([], 5.0, 4.0, [], []),
+        ([], 20.0, None, 99.0, [], False),  # all is well: no second placement
+        ([1], 20.0, [0, 2], 20.0, [1], True),  # one is wrong: the others place the part
+        ([1], 20.0, [0, 2], 19.9, [1], False),
+        ([1], 20.0, [0, 2], 20.1 - COST, [], True),
+        ([0, 2], 20.0, [], 20.1, [0, 2], True),  # most are wrong: none does
+        ([0, 2], 20.0, [], 19.9 + COST, [0, 1, 2], False),
+        ([], 5.0, [], 5.1 + 3 * COST, [0, 1, 2], True),  # it fits nowhere with them
+        ([], 5.0, [], 4.9 + 3 * COST, [0, 1, 2], False),  # a little better, against all of them
+        ([], 5.0, [], 5.1 + COST, [1], True),
     ],
 )
-def test_landmarks_that_a_placement_contradicts_are_left_out(
-    wrong: list[int], first: float, second: float, others: list[int] | None, rejected: list[int]
+def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_score_much_better(
+    wrong: list[int], first: float, others: list[int] | None, second: float, then: list[int], again: bool
 ) -> None:
     whole: Any = SimpleNamespace(vertices=np.eye(3))
     pairs = np.stack([np.arange(3), np.arange(3)], axis=1)
@@ -162,15 +190,39 @@ def test_landmarks_that_a_placement_contradicts_are_left_out(
     def place_with(*, landmarks: np.ndarray, **_: Any) -> Any:
         asked.append(landmarks[:, 0].tolist())
         off = np.zeros((3, 1))
-        off[wrong if len(asked) == 1 or first > 10 else [0, 1, 2]] = 1.01 * SCORE.part.max_landmark_error
+        off[wrong if len(asked) == 1 else then] = 1.01 * SCORE.part.max_landmark_error
         moved = whole.vertices + off * [1.0, 0.0, 0.0]
         score = first if len(asked) == 1 else second
         return SimpleNamespace(registration=SimpleNamespace(vertices=moved), scores=(score,), margin=9.0)
 
     found, named = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration)
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])
-    assert found.scores[0] == (first if others is None else max(first, second))
-    assert np.flatnonzero(named).tolist() == rejected
+    assert found.scores[0] == (second if again else first)
+    assert np.flatnonzero(named).tolist() == (then if again else wrong)
+
+
+def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better(monkeypatch):
+    """Two cuts of a creature: without landmarks they lie wrongly, with a better score."""
+    for name in ("_PROXY_FROM", "_PROXY_VERTICES"):
+        monkeypatch.setattr(f"kfmaps.matching.partial.place_part.{name}", 400)
+    rng, pair = np.random.default_rng(106), datasets.symmetric_creature(1500, rng=6)
+    pieces = []
+    for mesh in (pair.source, pair.target):
+        height, areas = mesh.vertices @ rng.normal(size=3), vertex_areas(mesh)
+        order = np.argsort(height)
+        below = np.cumsum(areas[order]) < rng.uniform(0.6, 0.85) * areas.sum()
+        pieces.append(largest_piece(mesh, np.isin(np.arange(len(height)), order[below])))
+    new = np.full(len(pair.source.vertices), -1)
+    new[pieces[0][1]] = np.arange(len(pieces[0][1]))
+    true = new[pair.truth[pieces[1][1]]]
+    rows = farthest_geodesic(pieces[1][0], 40, 0)
+    rows = rows[true[rows] >= 0][:4]
+    config = replace(SMALL, partial=Partial("both", samples=100, whole_samples=300))
+    shapes = [prepare(mesh, config, name=name) for (mesh, _), name in zip(pieces, "ab", strict=True)]
+    found = match_partial(*shapes, config, "both", landmarks=np.stack([true[rows], rows], axis=1))
+    assert len(found.rejected_landmarks) == 0
+    on, places = (true >= 0) & (found.target_to_source >= 0), shapes[0].mesh.vertices
+    assert np.linalg.norm(places[found.target_to_source[on]] - places[true[on]], axis=1).mean() < 0.08
 
 
 def test_two_parts_are_judged_by_the_distances_in_their_overlap_alone(half, true, monkeypatch):

@@ -29,7 +29,7 @@ QUALITY = Quality(0.9, 0.1, 0.12, 0.2, 0.1, 0.9, 0.05, 0.3)
 CANDIDATE = Candidate(
     "a", np.eye(2), np.zeros(3, dtype=int), QUALITY, True, np.array([0.1, 0.9]), 0.3, strain=0.4, shot_error=0.05
 )
-PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13)
+PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2)
 
 MEASURES = {
     "w_orientation": ("orientation", 1.0),
@@ -57,6 +57,7 @@ PART_WEIGHTS = {
     "w_scale": -1.5 * 0.25,
     "w_flipped": -4.0 * 0.1,
     "w_deformation": -3.0 * np.log(0.025),
+    "w_landmark": -3.0 * 2,
 }
 
 

@@ -72,10 +72,17 @@ def test_another_scale_than_that_of_the_file_costs_up_to_a_bound() -> None:
 
 def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.MonkeyPatch, pair: PartPair) -> None:
     found = SimpleNamespace(
-        deformation_energy=0.01, gap=0.0, flipped_area=0.0, places=SimpleNamespace(points=np.eye(5))
+        vertices=np.eye(5),
+        deformation_energy=0.01,
+        gap=0.0,
+        flipped_area=0.0,
+        places=SimpleNamespace(points=np.eye(5)),
     )
     monkeypatch.setattr(candidates, "register_part", lambda *_, **__: found)
-    whole: Any = SimpleNamespace(samples=np.arange(5), mesh=pair.whole.mesh, surface=SimpleNamespace(normals=np.eye(5)))
+    surface = SimpleNamespace(normals=np.eye(5))
+    whole: Any = SimpleNamespace(
+        samples=np.arange(5), landmarks=np.arange(0), mesh=SimpleNamespace(vertices=np.eye(5)), surface=surface
+    )
     pair = replace(pair, whole=whole)
     begun = Placement(SCALE, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), np.eye(5))
     for scale in (SCALE, 0.8 * SCALE, 1.25 * SCALE):

@@ -93,8 +93,10 @@ class PartScoring:
     """Gain of the score below which a placement is refined no further."""
     whole_overlap: float = 0.95
     """Common share of the area of both shapes from which neither is a part."""
+    w_landmark: float = 3.0
+    """Cost of a landmark that a placement contradicts."""
     max_landmark_error: float = 0.1
-    """Error of a landmark, in √area of the whole, from which it is rejected."""
+    """Error of a landmark, in √area of the whole, from which a placement contradicts it."""
     min_opening: float = 0.01
     """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
     max_hole_opening: float = 0.2
@@ -287,6 +289,7 @@ class PartEvidence:
     pair_consistency: float = PartScoring.usual_pair_consistency
     # Of the scale of a small part against that of its file: absolute value of the logarithm of the ratio.
     scale_change: float = 0.0
+    missed_landmarks: int = 0  # landmarks that are off by more than :attr:`PartScoring.max_landmark_error`
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
@@ -335,6 +338,7 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     fits = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap - numbers.w_flipped * evidence.flipped_area
     fits += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
     fits -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
+    fits -= numbers.w_landmark * evidence.missed_landmarks
     stiff = -math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
     return fits + numbers.w_deformation * stiff
 

@@ -16,7 +16,7 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.place_part import PlacedPart, place_part
-from kfmaps.matching.partial.registration import scale_mesh
+from kfmaps.matching.partial.registration import missed_landmarks, scale_mesh
 from kfmaps.matching.score import SCORE, Calibration, probability, verdict
 from kfmaps.shape import Shape
 
@@ -112,21 +112,21 @@ def _place_by_landmarks(
 ) -> tuple[PlacedPart, np.ndarray]:
     """Return a placement, and which of the landmarks ``pairs (l, 2)`` it contradicts, (l,) bool.
 
-    A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
-    where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept.
+    A placement that contradicts some is compared with one by the others, or by none where most are contradicted. So is
+    one that fits nowhere, by the ``numbers`` of its verdict, with one by none. The one with the better score is kept,
+    where each pays for every landmark that it contradicts: a slightly better score is no reason to drop right ones.
     """
 
     def missed(found: PlacedPart) -> np.ndarray:
-        ends = found.registration.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
-        return np.linalg.norm(ends, axis=1) > SCORE.part.max_landmark_error
+        return missed_landmarks(found.registration, pairs[:, 0], whole.vertices[pairs[:, 1]])
 
     found = place_with(landmarks=pairs)
     wrong = missed(found)
     nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
     if len(pairs) and (nowhere or wrong.any()):
-        others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
-        again = place_with(landmarks=others, progress=None)
-        found = again if again.scores[0] > found.scores[0] else found
+        kept = ~wrong & (0 < wrong.mean() <= 0.5)
+        again = place_with(landmarks=pairs[kept], progress=None)
+        found = max(again, found, key=lambda one: one.scores[0] - SCORE.part.w_landmark * missed(one).sum())
     return found, missed(found)
 
 

@@ -37,7 +37,7 @@ from kfmaps.matching.partial.scale_search import (
     search_scale,
     try_scales,
 )
-from kfmaps.matching.score import select_distinct
+from kfmaps.matching.score import SCORE, select_distinct
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of that
 _MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
@@ -51,7 +51,8 @@ class PlacedPart:
 
     registration: PartRegistration
     overlap: Overlap
-    scores: tuple[float, ...]  # of all candidates, the best first
+    # Of all candidates, the best first, as if the landmarks that it contradicts had not been given.
+    scores: tuple[float, ...]
     margin: float  # by how much the best of those that place the part elsewhere scores less
 
 
@@ -104,7 +105,8 @@ def place_part(
     if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
         on = PartSurface(whole)
         last = refine_registration(last, copies[0], part, on)
-    return PlacedPart(last, find_overlap(last, on), tuple(one.score for one in found), margin(found, len(pairs)))
+    paid = SCORE.part.w_landmark * found[0].evidence.missed_landmarks
+    return PlacedPart(last, find_overlap(last, on), tuple(one.score + paid for one in found), margin(found, len(pairs)))
 
 
 def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
@@ -159,7 +161,7 @@ def _register_fully(found: PartRegistration, pair: PartPair, progress: Callable[
     places = closest_points(found.vertices[samples], mesh.vertices, mesh.faces)
     points, normals = places.points, vertex_normals[mesh.faces[places.faces]].mean(axis=1)
     trust = found.inside[samples] * np.exp2(-((places.distances / 0.02) ** 2)) + 1e-3
-    ends = pair.whole.samples[: pair.whole.n_landmarks]
+    ends = pair.whole.landmarks
     points[: len(ends)], normals[: len(ends)] = mesh.vertices[ends], vertex_normals[ends]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     scale = found.scale if pair.fixed_scale else found.scale * found.edge_ratio

@@ -19,6 +19,7 @@ from kfmaps.geometry.coarsen import CoarseProxy, embedded_deformation
 from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_normals
 from kfmaps.matching.partial.samples import PartPair, PartSurface
+from kfmaps.matching.score import SCORE
 from kfmaps.registration.deformable import (
     DataTerm,
     DeformableMesh,
@@ -129,6 +130,14 @@ def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, who
         float(areas[cosine < 0.3].sum() / areas.sum()),
         float(np.median(longer)),
     )
+
+
+def missed_landmarks(found: PartRegistration, vertices: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Return which landmarks a registered part contradicts, (l,) bool.
+
+    ``vertices (l,)``: of the part; ``places (l, 3)``: where these belong.
+    """
+    return np.linalg.norm(found.vertices[vertices] - places, axis=1) > SCORE.part.max_landmark_error
 
 
 def _is_inside(found: ClosestPoints, whole: PartSurface) -> np.ndarray:

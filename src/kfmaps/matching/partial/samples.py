@@ -46,6 +46,11 @@ class PartSamples(PartSurface):
     # SHOT at the samples by its radius, as far as :meth:`shot` was asked for it.
     descriptors: dict[float, np.ndarray] = field(default_factory=dict)
 
+    @property
+    def landmarks(self) -> np.ndarray:
+        """The vertices that are landmarks, (l,)."""
+        return self.samples[: self.n_landmarks]
+
     def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
         if radius not in self.descriptors:
