@@ -402,8 +402,8 @@ MUTANTS = tuple(
         ),
         ("return u @ vh\n", "return vh @ u\n", "test_collection -k that_agree_are", "fmap/constraints"),
         (
-            "further = round(cost - math.log(",
-            "further = round(cost + math.log(",
+            "costs = [1e-6 - math.log(",
+            "costs = [10 + math.log(",
             "test_collection -k best_way",
         ),
         (

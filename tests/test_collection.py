@@ -18,7 +18,7 @@ from kfmaps.collection.pair_graph import (
     signature_distances,
     star_graph,
 )
-from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_map
+from kfmaps.collection.paths import best_path, compose_maps, invert_map
 from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
 from kfmaps.collection.sync_init import spanning_tree_init, spectral_init
@@ -241,17 +241,17 @@ def test_links_that_cannot_be() -> None:
 def test_the_best_way_is_the_most_probable() -> None:
     ends = [(0, 3), (0, 1), (1, 3), (0, 2), (3, 2)]
     chances = [0.9, 0.99, 0.99, 0.5, 1.0]
-    way = best_path(adjacency(4, ends), chances, 0, 3)
+    way = best_path(4, ends, chances, 0, 3)
     assert way is not None
     assert (way.shapes, way.edges) == ((0, 1, 3), (1, 2))
     assert way.probability == pytest.approx(0.99**2, rel=1e-3)
-    other = best_path(adjacency(4, ends), chances, 0, 3, without=1)
+    other = best_path(4, ends, chances, 0, 3, without=1)
     assert other is not None
     assert other.edges == (0,)
-    back = best_path(adjacency(4, ends), chances, 3, 0)
+    back = best_path(4, ends, chances, 3, 0)
     assert back is not None
     assert back.shapes == (3, 1, 0)
-    assert best_path(adjacency(5, ends), chances, 0, 4) is None
+    assert best_path(5, ends, chances, 0, 4) is None
 
 
 def test_compositions_of_maps_that_agree_are_the_maps() -> None:

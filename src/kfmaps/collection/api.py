@@ -22,7 +22,7 @@ from kfmaps.collection.consistency import (
 )
 from kfmaps.collection.differences import LimitShape, shape_distances
 from kfmaps.collection.pair_graph import signature, signature_graph
-from kfmaps.collection.paths import adjacency, best_paths
+from kfmaps.collection.paths import best_path
 from kfmaps.collection.repair import CyclePath, repair_maps
 from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.config import Config
@@ -102,15 +102,16 @@ class Collection:
         a, b = self._number(source), self._number(target)
         if a == b:
             return np.arange(len(self.shapes[a].mesh.vertices))
-        ways = best_paths(adjacency(len(self.names), self._ends()), self.probabilities, a)
-        if b not in ways and (source, target) in self.parts:
+        ends = [(self.names.index(one), self.names.index(other)) for one, other in self.pairs]
+        path = best_path(len(self.names), ends, self.probabilities, a, b)
+        if path is None and (source, target) in self.parts:
             return self.maps[self.pairs.index((source, target))]
-        if b not in ways:
+        if path is None:
             raise refuse("map", "two shapes that maps connect", f"{source} and {target}", "match more pairs")
         steps = []
-        for edge, here in zip(ways[b].edges, ways[b].shapes, strict=False):
-            first, points = self.names.index(self.pairs[edge][0]), self.maps[edge]
-            steps.append(((points, False), None if first == here else self.shapes[first].basis))
+        for edge, here in zip(path.edges, path.shapes, strict=False):
+            first = ends[edge][0]
+            steps.append(((self.maps[edge], False), None if first == here else self.shapes[first].basis))
         return compose_path(steps)[0]
 
     def distances(self, kind: str = "area") -> np.ndarray:
@@ -138,9 +139,6 @@ class Collection:
         if name not in self.names:
             raise refuse("shape", f"one of {', '.join(self.names[:5])}, ...", repr(name), "check the spelling")
         return self.names.index(name)
-
-    def _ends(self) -> list[tuple[int, int]]:
-        return [(self.names.index(a), self.names.index(b)) for a, b in self.pairs]
 
 
 @dataclass(eq=False)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from heapq import heappop, heappush
+from itertools import pairwise
 
 import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import refuse, to_numpy
 from kfmaps.fmap.convert import check_point_map, nearest
@@ -40,47 +42,38 @@ def adjacency(count: int, ends: Sequence[tuple[int, int]]) -> Adjacency:
 
 
 def best_path(
-    around: Adjacency, probabilities: Sequence[float], source: int, target: int, without: int | None = None
+    count: int,
+    ends: Sequence[tuple[int, int]],
+    probabilities: Sequence[float],
+    source: int,
+    target: int,
+    without: int | None = None,
 ) -> MapPath | None:
     """Return the path from ``source`` to ``target`` whose maps are most probably all right; ``None`` without one.
 
-    Of equally probable paths the one of the fewest edges is taken, then of the lowest numbers. ``without``: an edge
-    that is not to be used; the rest as for :func:`best_paths`.
+    Of equally probable paths one of the fewest edges is taken.
+
+    ``count``: number of shapes; ``ends``: the shapes of each edge, which is gone through both ways; ``probabilities``:
+    that the map of each edge is right; ``without``: an edge that is not to be used.
     """
-    return best_paths(around, probabilities, source, target, without).get(target)
-
-
-def best_paths(
-    around: Adjacency,
-    probabilities: Sequence[float],
-    source: int,
-    target: int | None = None,
-    without: int | None = None,
-) -> dict[int, MapPath]:
-    """Return the :func:`best_path` from one shape to each that can be reached, itself too, the most probable first.
-
-    A path without its last step is the best path to where that begins, so points can be carried step by step.
-
-    ``around``: edges are gone through both ways; ``probabilities``: that the map of each edge is right; ``target``: the
-    search (Dijkstra's) ends there.
-    """
-    queue: list[tuple[float, int, tuple[int, ...], tuple[int, ...]]] = [(0.0, 0, (source,), ())]
-    found: dict[int, MapPath] = {}
     min_probability = 1e-6  # probability below which a pair is on no path
-    while queue:
-        cost, length, shapes, edges = heappop(queue)
-        here = shapes[-1]
-        if here in found:
-            continue
-        found[here] = MapPath(shapes, edges, math.exp(-cost))
-        if here == target:
-            break
-        for other, number in around[here]:
-            if other not in found and number != without and probabilities[number] > min_probability:
-                # Rounded, so that what is equal but for rounding is equal; each step costs a little by itself.
-                further = round(cost - math.log(min(probabilities[number], 1.0)) + 1e-6, 9)
-                heappush(queue, (further, length + 1, (*shapes, other), (*edges, number)))
-    return found
+    used = [i for i, p in enumerate(probabilities) if p > min_probability and i != without]
+    edges: dict[tuple[int, int], int] = {}  # the most probable between two shapes
+    for number in sorted(used, key=lambda i: probabilities[i]):
+        edges[min(ends[number]), max(ends[number])] = number
+    # Each step costs a little by itself.
+    costs = [1e-6 - math.log(min(probabilities[number], 1.0)) for number in edges.values()]
+    rows = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
+    graph = csr_array((costs, rows.T), shape=(count, count))
+    before = dijkstra(graph, directed=False, indices=source, return_predecessors=True)[1]
+    shapes = [target]
+    while shapes[-1] != source:
+        if before[shapes[-1]] < 0:
+            return None
+        shapes.append(int(before[shapes[-1]]))
+    shapes.reverse()
+    taken = [edges[min(pair), max(pair)] for pair in pairwise(shapes)]
+    return MapPath(tuple(shapes), tuple(taken), math.prod(min(probabilities[number], 1.0) for number in taken))
 
 
 def compose_maps(maps: Sequence[np.ndarray]) -> np.ndarray:

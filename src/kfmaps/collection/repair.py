@@ -159,7 +159,7 @@ class _Repair:
         found: dict[tuple[int, tuple[CycleStep, ...]], CyclePath] = {}
         min_path_probability = 0.3  # least probability that all maps of a path are right
         for i in edges:
-            likely = best_path(self.around, chances, *self.ends[i], without=i)
+            likely = best_path(self.count, self.ends, chances, *self.ends[i], without=i)
             paths = _two_step_paths(self.around, self.ends, self.maps, i)
             if likely is not None and likely.probability >= min_path_probability:
                 walk = zip(likely.edges, likely.shapes, strict=False)
