@@ -11,7 +11,7 @@ from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
 from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_pair_maps
-from kfmaps.collection.sync_init import MAX_LOG_ODDS
+from kfmaps.collection.synchronization import MAX_LOG_ODDS
 from kfmaps.config import Search
 from kfmaps.matching.finish import KnownMap, match_from_map
 from kfmaps.matching.search import scoring_samples

@@ -13,11 +13,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps.collection.chirality import chirality
 from kfmaps.collection.paths import Adjacency, adjacency, best_path
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, is_same_map, with_better_score
-from kfmaps.collection.sync_init import MAX_LOG_ODDS
-from kfmaps.collection.synchronization import N_FUNCTIONS, OUTLIER_FACTOR, Edge, SyncResult, map_residuals, synchronize
+from kfmaps.collection.synchronization import (
+    MAX_LOG_ODDS,
+    N_FUNCTIONS,
+    OUTLIER_FACTOR,
+    Edge,
+    SyncResult,
+    map_residuals,
+    synchronize,
+)
+from kfmaps.geometry.connectivity import component_labels
 from kfmaps.matching.score import SCORE
 
 _NAMED = 5  # shapes of a composition that its label names
@@ -265,3 +272,32 @@ def _synchronize(
     edges = [Edge(a, b, several) for (a, b), several in zip(ends, offered, strict=True)]
     size = min([N_FUNCTIONS, *(min(c.map.shape) for several in offered for c in several)])
     return signs, synchronize(count, edges, size)
+
+
+def chirality(
+    count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: Sequence[float]
+) -> np.ndarray:
+    """Return 1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
+
+    As much of the ``weights`` as can be is to agree: the leading eigenvector of the signed graph gives signs
+    (synchronisation over the group of two; Singer 2011), and a shape changes its own as long as that gains.
+
+    ``count``: number of shapes; ``ends``, ``kept`` and ``weights``: of each pair its shapes, whether its map keeps
+    orientation, and how sure that is, not negative. Where pairs join shapes, the one with the lowest number has 1.
+    """
+    signed = np.zeros((count, count))
+    for (a, b), same, w in zip(ends, kept, weights, strict=True):
+        signed[a, b] += w if same else -w
+        signed[b, a] += w if same else -w
+    part = component_labels(count, *np.nonzero(signed))[1]
+    signs, first = np.ones(count, dtype=np.int64), np.zeros(count, dtype=np.int64)
+    for own in (np.flatnonzero(part == number) for number in np.unique(part)):
+        leading = np.linalg.eigh(signed[np.ix_(own, own)])[1][:, -1]
+        signs[own], first[own] = np.where(leading < -1e-12, -1, 1), own[0]
+    for _ in range(100):  # signs that are changed at most
+        gain = -signs * (signed @ signs)
+        worst = int(gain.argmax())
+        if gain[worst] <= 1e-9 * (1.0 + np.abs(signed).max()):
+            break
+        signs[worst] *= -1
+    return signs * signs[first]
