@@ -10,12 +10,11 @@ import pytest
 from kfmaps._arrays import InvalidInput
 from kfmaps.collection.pair_graph import (
     bridges,
-    complete_graph,
     medoid,
     nearest_neighbor_graph,
     signature,
     signature_distances,
-    star_graph,
+    signature_graph,
 )
 from kfmaps.collection.paths import best_path, compose_maps, invert_map
 from kfmaps.collection.repair import CyclePath, chirality, repair_maps
@@ -52,6 +51,10 @@ def consistent_links(latent: np.ndarray, pairs, wrong=(), odds: float = 0.0, see
             Edge(a, b, (CandidateMap(nearest_orthogonal(rng.normal(size=C.shape)) if number in wrong else C, odds),))
         )
     return links
+
+
+def complete_graph(count: int) -> tuple[tuple[int, int], ...]:
+    return tuple(itertools.combinations(range(count), 2))
 
 
 def connected(count: int, pairs) -> bool:
@@ -94,11 +97,10 @@ def test_near_pairs_follow_the_numbers() -> None:
 
 
 def test_stars_and_all_pairs() -> None:
-    assert star_graph(4, 2) == ((2, 0), (2, 1), (2, 3))
-    assert complete_graph(3) == ((0, 1), (0, 2), (1, 2))
+    places = np.array([[0.0], [9.0], [1.0], [5.0]])
+    assert signature_graph("star", places) == ((2, 0), (2, 1), (2, 3))
+    assert signature_graph("all", places[:3]) == ((0, 1), (0, 2), (1, 2))
     assert medoid(signature_distances(np.array([[0.0], [1.0], [5.0]]))) == 1
-    with pytest.raises(InvalidInput, match="2 or more"):
-        nearest_neighbor_graph(np.zeros((3, 3)), 1)
 
 
 @pytest.mark.parametrize("seed", range(5))

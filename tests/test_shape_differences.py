@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,6 @@ from kfmaps.collection.differences import (
     limit_shape,
     shape_distances,
 )
-from kfmaps.collection.pair_graph import complete_graph
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
 from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.basis import Basis
@@ -32,7 +32,7 @@ def collection(stretches: list[np.ndarray], seed: int = 0, isometric: bool = Fal
     turns = [rng.normal(size=(K, K)) for _ in stretches]
     turns = [np.diag(np.sign(np.diag(turn))) if isometric else nearest_orthogonal(turn) for turn in turns]
     own = [turn @ s for turn, s in zip(turns, stretches, strict=True)]
-    pairs = complete_graph(len(own))
+    pairs = list(itertools.combinations(range(len(own)), 2))
     links = [Edge(a, b, (CandidateMap(own[b] @ np.linalg.inv(own[a])),)) for a, b in pairs]
     return own, links, synchronize(len(own), links, K), np.tile(VALUES, (len(own), 1))
 

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from kfmaps.batch.layout import Pair, ShapeFolder, choose_pairs
 from kfmaps.batch.results import FOLDER, Result, read_result, result_path
 from kfmaps.batch.run_spec import RunSpec, claim, digest_of
 from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
-from kfmaps.collection.pair_graph import complete_graph, medoid, signature, signature_distances, signature_graph
+from kfmaps.collection.pair_graph import medoid, signature, signature_distances, signature_graph
 from kfmaps.io.atomic import write_text
 
 _GRAPH = "graph.json"
@@ -83,7 +84,7 @@ def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind
     if kind == "both":
         return choose_pairs(collection, every=True)
     if kind == "all":
-        return [Pair(names[a], names[b]) for a, b in complete_graph(len(names))]
+        return [Pair(a, b) for a, b in combinations(names, 2)]
     make = _Tasks(collection, spec, output)
     tasks = [make.shape(name) for name in names]
     key = digest_of([kind, sorted((task.name, task.content) for task in tasks)], 32)

@@ -7,6 +7,7 @@ are the easiest to match, gets further pairs until each shape has a few, and no 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import combinations
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -46,31 +47,9 @@ def signature(basis: Basis) -> np.ndarray:
 
 
 def signature_distances(signatures: np.ndarray) -> np.ndarray:
-    """Return the root mean square differences between rows.
-
-    Parameters
-    ----------
-    signatures : (n, d)
-
-    Returns
-    -------
-    (n, n) float64
-        Symmetric, 0 on the diagonal.
-    """
+    """Return the root mean square differences between rows of ``signatures (n, d)``: (n, n), symmetric."""
     check(signatures, "signatures", shape=(None, None), finite=True)
     return squareform(pdist(signatures)) / np.sqrt(signatures.shape[1])
-
-
-def star_graph(count: int, centre: int) -> Pairs:
-    """Return the pairs of ``centre`` with all others of ``count`` shapes; none of them can be checked by others."""
-    check_count(count, "shapes", low=2)
-    return tuple((centre, other) for other in range(count) if other != centre)
-
-
-def complete_graph(count: int) -> Pairs:
-    """Return all pairs of ``count`` shapes, one way."""
-    check_count(count, "shapes", low=2)
-    return tuple((a, b) for a in range(count) for b in range(a + 1, count))
 
 
 def medoid(distances: np.ndarray) -> int:
@@ -96,12 +75,6 @@ def nearest_neighbor_graph(distances: np.ndarray, each: int = 4) -> Pairs:
         two shapes).
     """
     count = len(distances)
-    check(distances, "distances", shape=(count, count), finite=True)
-    check_count(count, "shapes", low=2)
-    if each < 2:
-        raise refuse(
-            "pairs of each shape", "2 or more, so that there are cycles", str(each), "raise it, or take a star"
-        )
     # Zero is no edge to SciPy: equal shapes are as near as can be all the same.
     apart = distances + 1e-9 * (1.0 + distances.max())
     tree = coo_array(minimum_spanning_tree(np.triu(apart, 1)))
@@ -130,19 +103,23 @@ def signature_graph(kind: str, signatures: np.ndarray) -> Pairs:
     Parameters
     ----------
     kind : "near", "star" or "all"
-        :func:`nearest_neighbor_graph`, the :func:`star_graph` around the :func:`medoid`, or :func:`complete_graph`.
+        :func:`nearest_neighbor_graph`; the :func:`medoid` with all others, of which none can be checked by others; or
+        all pairs, one way.
 
     Raises
     ------
     InvalidInput
         On another kind, and when there are fewer than two shapes.
     """
+    count = check_count(len(signatures), "shapes", low=2)
     if kind == "all":
-        return complete_graph(len(signatures))
+        return tuple(combinations(range(count), 2))
     if kind not in ("near", "star"):
         raise refuse("graph", "near, star or all", repr(kind), "choose one of them")
     distances = signature_distances(signatures)
-    return nearest_neighbor_graph(distances) if kind == "near" else star_graph(len(signatures), medoid(distances))
+    centre = medoid(distances)
+    star = tuple((centre, other) for other in range(count) if other != centre)
+    return star if kind == "star" else nearest_neighbor_graph(distances)
 
 
 def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], np.ndarray] | None:
