@@ -1,18 +1,17 @@
 """What learned kernels are worth: the tables of research/learning.md.
 
     python benchmarks/learning.py --data DIR default10=10 tuned=tune.toml learned=kernel.toml [--refined] [--pairs 12]
-    python benchmarks/learning.py --data DIR --free kernel.toml [--pairs 8]
     python benchmarks/learning.py --data DIR --epoch
     python benchmarks/learning.py --data DIR --starts [NAMES]
 
 DIR holds FAUST_r, TOSCA_r and SHREC19_r. Pairs are of people 4 to 7 (settings are learned and tuned on people 0 to 3),
 of two poses of one animal, and of SHREC19_r, in an order drawn with a fixed seed. With settings by name (a file, or a
 number: the default settings with so many descriptors) each makes one fit with six landmarks, judged raw and, with
-``--refined``, after ZoomOut; each is compared with those before it. With ``--free`` a kernel learned without landmarks
-serves a search. ``--epoch`` times one epoch of 30 pairs at k = 50. ``--starts`` compares what gradients may start from:
-metrics by discriminant analysis on pairs of people 0 and 1, judged on pairs of people 2 and 3. Errors are mean geodesic
-distances in per cent of √area; intervals are of a bootstrap over pairs. ``--rows FILE`` keeps each pair's numbers, so
-that a run that was cut short goes on; ``--cache DIR`` keeps prepared shapes and distances.
+``--refined``, after ZoomOut; each is compared with those before it. ``--epoch`` times one epoch of 30 pairs at k = 50.
+``--starts`` compares what gradients may start from: metrics by discriminant analysis on pairs of people 0 and 1, judged
+on pairs of people 2 and 3. Errors are mean geodesic distances in per cent of √area; intervals are of a bootstrap over
+pairs. ``--rows FILE`` keeps each pair's numbers, so that a run that was cut short goes on; ``--cache DIR`` keeps
+prepared shapes and distances.
 """
 
 from __future__ import annotations
@@ -154,15 +153,6 @@ def one_fit(config: kfmaps.Config, refined: bool) -> Callable[[Task], dict]:
             points = refine_map(C, task.source, task.target, whole, raw=False).target_to_source
             found["refined"] = task.error(points[task.judged])
         return found
-
-    return measured
-
-
-def searched(config: kfmaps.Config) -> Callable[[Task], dict]:
-    def measured(task: Task) -> dict:
-        found = kfmaps.match(task.source, task.target, config)
-        error = task.error(found.target_to_source[task.judged])
-        return {"raw": error, "origin": found.score.initialization, "verdict": found.verdict}
 
     return measured
 
@@ -317,7 +307,6 @@ def main() -> None:
     parser.add_argument("--sets", default=",".join(SETS))
     parser.add_argument("--pairs", type=int, default=12)
     parser.add_argument("--refined", action="store_true")
-    parser.add_argument("--free", type=Path)
     parser.add_argument("--epoch", action="store_true")
     parser.add_argument("--starts", nargs="*", metavar="NAME")
     parser.add_argument("--rows", type=Path)
@@ -333,17 +322,10 @@ def main() -> None:
     for text in chosen.settings:
         name, _, file = text.partition("=")
         methods[name] = one_fit(settings_of(file), chosen.refined)
-    if chosen.free:
-        methods["search"] = searched(SEARCH)
-        methods["search, learned"] = searched(replace(read_settings(chosen.free, SEARCH), threads=1))
     for kind in chosen.sets.split(","):
         rows = run(Data(chosen.data / kind, chosen.cache), methods, chosen.pairs, chosen.rows)
         for stage in ("raw", "refined"):
             told(kind, stage, rows)
-        for name, of_pairs in rows.items():
-            taken = [row["origin"] for row in of_pairs.values() if str(row.get("origin", "")).startswith("learned")]
-            if chosen.free:
-                print(f"  {name}: {len(taken)} of {len(of_pairs)} maps are of the learned kernel's candidates")
 
 
 if __name__ == "__main__":

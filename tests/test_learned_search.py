@@ -1,24 +1,19 @@
-"""What a learned kernel adds to a search: maps beside all others, and no digit of a map that it cannot better."""
+"""A search leaves out what was learned."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.linalg import eigh
 
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, Search, Weights
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.kernels.transformed import Metric, n_kernel_landmarks
-from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import fit
-from kfmaps.matching.learned_kernel import _in_metric, _transformed_descriptors, drop_learned, learned_candidates
+from kfmaps.matching.initial_maps import drop_learned
 from kfmaps.matching.match import match
-from kfmaps.matching.ranking import ProxyCache, merge_alternatives
-from kfmaps.matching.sample_pair import two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, Quality
-from kfmaps.matching.search import scoring_samples, search_map
+from kfmaps.matching.search import search_map
 from kfmaps.shape import prepare
 
 GUARDS = ("kfmaps.matching",)
@@ -33,7 +28,6 @@ CONFIG = replace(
     registration=None,
     threads=1,
 )
-NONE = np.zeros((0, 2), dtype=np.int64)
 
 
 @pytest.fixture(scope="module")
@@ -65,62 +59,6 @@ def test_what_was_learned_stays_out_of_the_searchs_own_fits():
     assert drop_learned(CONFIG) is CONFIG
     mine = replace(CONFIG, kernel=Gaussian(3.0), weights=Weights(5.0, 1.0, 1.0))
     assert drop_learned(mine) is mine  # a user's own settings, which nothing was learned for
-
-
-def discriminant(creature):
-    """Rows in which corresponding points agree and others do not (Fisher 1936)."""
-    source, target, truth = creature
-    used = pair_descriptors(source, target, (source.basis, target.basis), CONFIG.descriptors, NONE, None)
-    moved = used.source[truth] - used.target
-    spread = np.cov(used.source.T)
-    noise = moved.T @ moved / len(moved) + 0.1 * np.trace(spread) / COUNT * np.eye(COUNT)
-    return eigh(spread, noise)[1][:, ::-1][:, :12].T.tolist()
-
-
-def test_candidates_of_the_metric(creature):
-    """They are judged as all others are, and go where the metric says: compared in it, the truth is near."""
-    source, target, truth = creature
-    config = taught(discriminant(creature))
-    on = two_level_samples(source, target, (scoring_samples(source), scoring_samples(target)), NONE)
-    rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)
-    assert rows is not None
-    ground = _in_metric(on.whole, *rows)
-    assert ground.descriptor_cost is not None
-    assert on.whole.descriptor_cost is not None
-    assert ground.descriptor_cost.shape == on.whole.descriptor_cost.shape
-    found = learned_candidates(source, target, config, on, 0)
-    assert found
-    assert all(c.name.startswith("learned") and c.uses_descriptors for c in found)
-    best = max(found, key=lambda c: c.score)
-    own = search_map(source, target, drop_learned(config))
-    assert best.quality.score > (own.quality or 0.0) - 3.0
-    wanted = truth[on.whole.target.samples.vertices]
-    images = source.mesh.vertices[on.whole.source.samples.vertices[best.points]]
-    assert np.linalg.norm(images - source.mesh.vertices[wanted], axis=1).mean() < 0.15
-    assert learned_candidates(source, target, taught([1.0, 2.0]), on, 0) == []  # of other descriptors
-
-
-def candidate(name, score, place, on):
-    """A map that sends all points to ``place``, of a given score."""
-    points = np.full(len(on.target.positions), place)
-    return Candidate(name, np.eye(3), points, Quality(score, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), deformation_energy=None)
-
-
-def test_only_what_is_clearly_better_comes_first(creature):
-    source, target, _ = creature
-    on = two_level_samples(source, target, (scoring_samples(source), scoring_samples(target)), NONE).whole
-    on = replace(on, source=replace(on.source, copy=None), target=replace(on.target, copy=None))
-    far = int(np.linalg.norm(on.source.positions - on.source.positions[0], axis=1).argmax())
-    usual, copies = [candidate("own", 1.0, 0, on)], ProxyCache.of(source, target, on)
-
-    def first(score, place):
-        return [c.name for c in merge_alternatives(usual, [candidate("new", score, place, on)], on, copies)]
-
-    assert first(1.0 + 0.9 * SCORE.clear_margin, far) == ["own", "new"]
-    assert first(1.0 + 1.1 * SCORE.clear_margin, far) == ["new", "own"]
-    assert first(9.0, 0) == ["own"]  # the same map
-    assert first(1.0 - 1.1 * SCORE.max_behind, far) == ["own"]
-    assert merge_alternatives(usual, [], on, copies) is usual
 
 
 def test_a_kernel_knows_its_landmarks(creature):

@@ -133,14 +133,20 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads
 def refine_fine(
     chosen: list[Candidate], few: SamplePair, pair: SamplePair, functions: int, threads: int | None = None
 ) -> list[Candidate]:
-    """Refine the chosen maps, found on ``few`` samples, on all: with descriptors, and alternatives without as well."""
+    """Refine the chosen maps, found on ``few`` samples, on all, up to :data:`FINE` functions in steps of 5.
+
+    All are refined with descriptors, and alternatives without as well.
+    """
     guided, bare = distinct_weights(FINE_WEIGHTS, pair), WEIGHTS[0]
+    stop = min(FINE, functions)
     found = []
     for weights in dict.fromkeys((bare, *guided)):
         members = [c for c in chosen if weights in guided or not c.uses_descriptors]
         if members:
             matches = [match_of_map(c.points, few.source, few.target) for c in members] if weights[2:] else []
-            refined = refine_finely(members, pair, functions, weights, matches, threads)
+            size = min(20, stop, *members[0].functional_map.shape)  # from fewer functions it loses right maps
+            maps = np.stack([c.functional_map[:size, :size] for c in members])
+            refined = refine_batch(maps, pair, (*range(size, stop, 5), stop), weights, matches, threads)
             uses = bool(weights[0]) or pair.descriptor_cost is None
             found += score_maps([(c.name, uses) for c in members], *refined, pair, threads, [c.fit for c in members])
     return found
@@ -152,21 +158,6 @@ def compose_with_symmetries(one: Candidate, samples: TwoLevelSamples, threads: i
     rough = refine_coarse(symmetry_inits([one], samples.few, functions, threads), samples.few, functions, threads)
     chosen = distinct_maps(by_score(rough), samples.few.source, SCORE.rough_distance, _FEWER)
     return refine_fine(chosen, samples.few, samples.whole, functions, threads) if chosen else []
-
-
-def refine_finely(
-    chosen: list[Candidate],
-    pair: SamplePair,
-    functions: int,
-    weights: KernelWeights,
-    matches: Sequence[ExtremityMatch | None],
-    threads: int | None,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Refine rough candidates on all samples, up to :data:`FINE` functions in steps of 5."""
-    stop = min(FINE, functions)
-    size = min(20, stop, *chosen[0].functional_map.shape)  # from fewer functions it loses right maps
-    maps = np.stack([c.functional_map[:size, :size] for c in chosen])
-    return refine_batch(maps, pair, (*range(size, stop, 5), stop), weights, matches, threads)
 
 
 def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:

@@ -13,12 +13,13 @@ from itertools import product
 import numpy as np
 from scipy.linalg import expm
 
-from kfmaps._arrays import inner
+from kfmaps._arrays import inner, refuse
 from kfmaps._threads import parallel
 from kfmaps.config import Config, DescriptorConfig
 from kfmaps.fmap.multiplication_operators import unpack_operators
 from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import Basis
+from kfmaps.kernels.transformed import descriptor_width, n_kernel_landmarks
 from kfmaps.matching.assemble import (
     ORIENTATION_FEATURES,
     FitProblem,
@@ -48,8 +49,6 @@ STARTS = (6, 10, 20)
 """Functions that the rough refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""
 
-LEARNED = "learned"
-"""Descriptor set of fits with a learned kernel, see :mod:`kfmaps.matching.learned_kernel`."""
 FIT_POINTS = 2000
 """Samples of each shape that a fit is made from."""
 
@@ -86,7 +85,7 @@ def distinct_weights(weights: Iterable[KernelWeights], pair: SamplePair) -> list
     return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
 
 
-def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights] = WEIGHTS) -> list[Start]:
+def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights]) -> list[Start]:
     """Return diagonal maps with all signs of ``count`` functions after the constant one, with all ``weights``."""
     if count == 0:
         return []
@@ -102,15 +101,13 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights] = 
     ]
 
 
-def repeated_starts(
-    maps: Iterable[tuple[str, np.ndarray, Fit | None]], weights: Iterable[KernelWeights], pair: SamplePair
-) -> list[Start]:
-    """Return starts of ``maps``, each with its name and fit, from several sizes and with several ``weights``."""
+def repeated_starts(maps: Iterable[tuple[str, np.ndarray, Fit | None]], pair: SamplePair) -> list[Start]:
+    """Return starts of ``maps``, each with its name and fit, from several sizes and with several weights."""
     return [
         Start(f"{name}, from {start}, weight {w[0]:g}", C, start, w, True, fit=fit)
         for name, C, fit in maps
         for start in STARTS
-        for w in distinct_weights(weights, pair)
+        for w in distinct_weights(FIT_WEIGHTS, pair)
     ]
 
 
@@ -146,7 +143,7 @@ def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int, thre
         for S, after in [*((S, False) for S in own), *((S, True) for S in theirs)]:
             k = min(len(C), len(S))
             composed.append((f"turned {i}", S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k], None))
-    return repeated_starts(composed, FIT_WEIGHTS, pair)
+    return repeated_starts(composed, pair)
 
 
 def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -178,10 +175,30 @@ def kernel_inits(points: SampledPair, config: Config, samples: TwoLevelSamples, 
         members = [fit for fit in fits if fit.descriptor_set == name]
         made = fit_descriptor_set(members, points, config, operators, seed)
         named = [(spec.name, fit.functional_map, fit) for spec, fit in zip(members, made, strict=True)]
-        return repeated_starts(named, FIT_WEIGHTS, samples.few)
+        return repeated_starts(named, samples.few)
 
     names = list(dict.fromkeys(fit.descriptor_set for fit in fits))
     return [start for several in parallel(starts, names, config.threads) for start in several]
+
+
+def drop_learned(config: Config) -> Config:
+    """Return ``config`` without what :mod:`kfmaps.learn` learns from descriptors: in a search it changes no map.
+
+    Raises
+    ------
+    InvalidInput
+        Where the kernel was learned with landmarks.
+    """
+    if descriptor_width(config.kernel) is None:
+        return config
+    if n_kernel_landmarks(config.kernel):
+        got = f"one learned with {n_kernel_landmarks(config.kernel)} landmarks"
+        raise refuse("kernel of a search", "one without landmarks", got, "set search to none, or leave the kernel out")
+    usual = Config()
+    asked = replace(config.formulation, mask=usual.formulation.mask, mask_power=usual.formulation.mask_power)
+    return replace(
+        config, kernel=usual.kernel, bandwidth_scale=usual.bandwidth_scale, weights=usual.weights, formulation=asked
+    )
 
 
 def plan_fits(config: Config, surfaces: bool = True) -> list[FitSpec]:
@@ -251,8 +268,6 @@ def fit_descriptor_set(
 
 def _descriptor_config(name: str, base: DescriptorConfig) -> DescriptorConfig:
     """Return the descriptors of a set."""
-    if name == LEARNED:
-        return replace(base, landmark_descriptor="none")
     both = replace(base, n_spectral=30)
     if name == "SHOT":
         return replace(both, signature="none", landmark_descriptor="none")

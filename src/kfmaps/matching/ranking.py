@@ -16,7 +16,7 @@ import numpy as np
 from kfmaps._threads import parallel
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
 from kfmaps.geometry.coarsen import CoarseProxy
-from kfmaps.matching.candidates import by_score, distinct_maps, map_distance
+from kfmaps.matching.candidates import by_score, distinct_maps
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
@@ -128,19 +128,6 @@ def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None
     pair = copies.coarse
     energies = parallel(lambda c: deform(c.functional_map, pair).energy, found, threads)
     return [replace(c, deformation_energy=energy) for c, energy in zip(found, energies, strict=True)]
-
-
-def merge_alternatives(
-    ranked: list[Candidate], more: list[Candidate], samples: SamplePair, copies: ProxyCache, threads: int | None = None
-) -> list[Candidate]:
-    """Return ``ranked`` and the best of ``more`` that differs from all, first where it is clearly better."""
-    others = [c for c in more if all(map_distance(c, one, samples.source) > SCORE.distinct_distance for one in ranked)]
-    if not others or max(c.quality.score for c in others) < ranked[0].quality.score - SCORE.max_behind:
-        return ranked
-    new = ranking(others, samples, copies, threads)[0]
-    if new.score > ranked[0].score + SCORE.clear_margin:
-        return [new, *ranked]
-    return [ranked[0], *by_score([*ranked[1:], new])]
 
 
 def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:

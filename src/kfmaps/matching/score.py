@@ -181,7 +181,7 @@ class Scoring:
     non_isometric_score: float = -8.0
     """:attr:`Quality.score` below which the high functions of two shapes do not correspond."""
     clear_margin: float = 0.3
-    """Margin from which an alternative without descriptors, a learned map or a mirror image comes first."""
+    """Margin from which an alternative without descriptors or a mirror image comes first."""
     mirror_margin: float = 5.0
     """Margin from which a map to the mirror image comes first unasked; bones have 10, other maps none."""
     mirror_gain: float = 1.0

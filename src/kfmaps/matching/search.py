@@ -42,11 +42,11 @@ from kfmaps.matching.candidates import (
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import Fit, check_landmark_pairs
+from kfmaps.matching.initial_maps import drop_learned
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, build_guidance, landmark_errors
-from kfmaps.matching.learned_kernel import drop_learned, learned_candidates, learned_kernel_applies
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
-from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates, with_bending
+from kfmaps.matching.ranking import ProxyCache, ranking, rerank_near_duplicates, with_bending
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
 from kfmaps.matching.sample_pair import COARSE_SAMPLES as FEW
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landmarks, mirrored_pair, two_level_samples
@@ -148,18 +148,17 @@ def search_map(
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config(), which has them")
-    learned = learned_kernel_applies(config, source, target)
+    config = drop_learned(config)
     given = seed_of(rng)
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
     everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, given, probes), pairs)
     report("candidates", 0.1)
-    plain = drop_learned(config)
     own = user_descriptors(source, target, config.descriptors, descriptors)
     alone: list[Candidate] = []
     if len(pairs):
         half = _candidates_between(report, 0.1, 0.5)
-        alone = without_landmarks(source, target, plain, everything, given, descriptors=own, report=half)
+        alone = without_landmarks(source, target, config, everything, given, descriptors=own, report=half)
 
     none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
     evidence = everything.whole.landmark_evidence
@@ -171,7 +170,7 @@ def search_map(
         found: list[Candidate] = []
         if not len(pairs) or not wrong.all():
             left = pairs[~wrong]
-            found = candidates(source, target, plain, kept, given, landmarks=left, descriptors=own, report=rest)
+            found = candidates(source, target, config, kept, given, landmarks=left, descriptors=own, report=rest)
         free = rescore(alone, kept.whole, config.threads) if alone else []
         return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
@@ -180,10 +179,6 @@ def search_map(
         wrong, doubts = _contradicted_landmarks(state)
         state = search_with(wrong) if wrong.any() else state
         state = replace(state, doubts=(*state.doubts, *doubts))
-    if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
-        others = learned_candidates(source, target, config, state.samples, given)
-        merged = merge_alternatives(state.ranked, others, state.samples.whole, state.copies, config.threads)
-        state = replace(state, ranked=merged)
     state, retries = _improve_best(state, report)
     return replace(_to_result(state, state.ranked[0], state.ranked[1:]), retries=retries, _search=state)
 
