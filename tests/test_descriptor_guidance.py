@@ -60,7 +60,7 @@ def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
     zoom = ZoomOut(6, 40, 8, samples=200, descriptor_weight=12.0)
     wrong = np.diag([1.0, -1, 1, 1, 1, 1])
     found = zoom(wrong, basis, basis, threads=1, guide=descriptor_guidance(mesh.vertices, mesh.vertices))
-    assert (found.target_to_source == np.arange(900)).mean() > 0.9
+    assert np.linalg.norm(mesh.vertices[found.target_to_source] - mesh.vertices, axis=1).mean() < 0.02
 
 
 def test_a_guide_is_scaled_common_and_short():

@@ -165,23 +165,6 @@ def test_search_by_cells_misses_few_and_none_by_much(pair):
     assert np.mean(few != exact) > np.mean(found != exact)  # more probes find more
 
 
-def test_a_point_not_far_from_the_nearest_is_where_to_look(pair):
-    source, target, truth = pair
-    C = to_functional(truth, source.basis, target.basis)
-    queries, points = target.basis.functions, source.basis.functions @ C.T
-    exact = nearest(queries, points, exact=True)
-    start = nearest(queries[:, :8], points[:, :8], exact=True)
-    found = nearest(queries, points, exact=False, start=start, threads=2)
-    assert np.mean(start != exact) > 0.1
-    assert np.mean(found != exact) < 0.006
-    # Only the cells around it are searched: a start far away is not made good.
-    far = start[np.random.default_rng(0).permutation(len(start))]
-    lost = nearest(queries, points, exact=False, start=far)
-    assert np.mean(lost != exact) > 0.3
-    everything = approximate_nearest(queries, points, start=far, around=10_000)
-    assert np.mean(everything != exact) < 1e-3  # but for single precision
-
-
 @pytest.mark.parametrize("threads", [1, 3])
 @pytest.mark.parametrize("size", [5, 64])
 def test_cells_hold_every_point_once(pair, size, threads):
@@ -290,8 +273,8 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     errors = [geodesic_distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
     assert (every.target_to_source != some.target_to_source).any()
     assert errors[1] < 1.1 * errors[0] + 1e-3
-    last = to_points(some.functional_map, source.basis, target.basis)
-    np.testing.assert_array_equal(some.target_to_source, last)  # from all points
+    ends = [basis.truncate(50) for basis in (source.basis, target.basis)]
+    np.testing.assert_array_equal(some.functional_map, to_functional(some.target_to_source, *ends))  # of all points
 
 
 def test_condensed_features_lose_no_more_than_they_say(rng):

@@ -253,15 +253,3 @@ def test_truth_of_pairs():
         truth_from_pairs(np.array([0]), np.array([2, 0]), points)
     with pytest.raises(InvalidInput):
         truth_from_pairs(np.array([0]), np.array([3]), points)
-
-
-def test_a_start_changes_no_exact_point_and_names_no_vertex_without_area(rng):
-    source, target = random_basis(60, 8, rng), random_basis(50, 8, rng)
-    bare = [3, 40]
-    mass = source.mass.copy()
-    mass[bare] = 0.0
-    source = Basis(source.eigenvalues, source.functions, mass)
-    C = np.linalg.qr(rng.normal(size=(8, 8)))[0]
-    found = to_points(C, source, target)
-    assert not np.isin(found, bare).any()
-    np.testing.assert_array_equal(to_points(C, source, target, start=rng.integers(0, 60, 50)), found)

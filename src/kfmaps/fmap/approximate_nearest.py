@@ -7,9 +7,6 @@ query names the 8 patches nearest to it, then the nearest cells in these, and se
 products in single precision, of groups of queries that lie together with whatever any of them has named: so a query
 meets some two thousand middles and points, however many there are. Patches larger than the functions' waves would not
 do: beyond those all distances are alike. What is lost is in research/speed.md.
-
-Where a point is known that is not far from the answer, nothing needs to be named: the cells around that point's are
-searched, which are the same for all queries whose point lies in that cell.
 """
 
 from __future__ import annotations
@@ -34,16 +31,13 @@ def approximate_nearest(
     size: int = 64,
     probes: int = N_PROBE,
     threads: int | None = None,
-    start: np.ndarray | None = None,
-    around: int = 16,
 ) -> np.ndarray:
     """Return for each query a point that is nearly the closest, (q,) int64.
 
     ``queries (q, d)`` and ``points (p, d)``: at least one point. Rows whose leading columns are alike should be alike:
     those of smooth functions on a surface, the lowest first. Otherwise more is missed. ``size``: points in a cell,
     about. With ``p`` all points are compared, in single precision. ``probes``: cells that each query names;
-    ``threads``: Python threads; ``None`` takes every core; ``start (q,)``: for each query a point not far from the
-    nearest: only the cells around it are searched; ``around``: how many cells these are.
+    ``threads``: Python threads; ``None`` takes every core.
     """
     p, q = len(points), len(queries)
     probes = check_count(probes, "probes")
@@ -52,19 +46,9 @@ def approximate_nearest(
     order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit, threads)
     rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 4096)])
     centres = _means(rows, edges)
-    near = cell = wider = np.zeros(0, dtype=np.int64)
-    if start is not None:
-        rank = np.empty(p, dtype=np.int64)
-        rank[order] = np.arange(p)
-        cell = np.searchsorted(edges, rank[start], side="right") - 1
-        near = _nearest_cells(centres, min(around, len(centres)), threads)
-        members = np.argsort(cell, kind="stable")
-        bounds = _pieces(cell[members])
-    else:
-        wider = _means(rows, edges[patches])
-        # Few queries among many points lie far apart: groups of them would name everything.
-        members, bounds = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
-
+    wider = _means(rows, edges[patches])
+    # Few queries among many points lie far apart: groups of them would name everything.
+    members, bounds = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
     answer = np.empty(q, dtype=np.int64)
 
     def search(groups: slice) -> None:
@@ -74,11 +58,8 @@ def approximate_nearest(
             # Seen from the middle of the group, differences of nearly equal distances lose no digits.
             here = x.mean(axis=0)
             x -= here
-            if start is not None:
-                cells = near[cell[mine[0]]]
-            else:
-                cells = _inside(patches, _named(x, wider - here, 8))
-                cells = cells[_named(x, centres[cells] - here, probes)]
+            cells = _inside(patches, _named(x, wider - here, 8))
+            cells = cells[_named(x, centres[cells] - here, probes)]
             found = _inside(edges, cells)
             answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
 
@@ -106,25 +87,6 @@ def _cells(
     piece = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     edges = np.repeat(np.cumsum(sizes) - sizes, pieces) + np.repeat(sizes, pieces) * piece // np.repeat(pieces, pieces)
     return order, np.append(edges, len(points)), np.append(0, np.cumsum(pieces))
-
-
-def _nearest_cells(centres: np.ndarray, count: int, threads: int | None) -> np.ndarray:
-    """The ``count`` cells nearest to each, itself among them, ascending."""
-
-    def some(part: slice) -> np.ndarray:
-        here = centres[part].mean(axis=0)
-        scores = _scores(centres[part] - here, centres - here)
-        return np.sort(np.argpartition(scores, len(centres) - count, axis=1)[:, -count:], axis=1)
-
-    return np.concatenate(parallel(some, blocks(len(centres), 512), threads))
-
-
-def _pieces(labels: np.ndarray) -> np.ndarray:
-    """Where runs of one label start among ascending ``labels (q,)``, those longer than two groups cut (and the end)."""
-    q = len(labels)
-    starts = np.flatnonzero(np.diff(labels, prepend=-1))
-    within = np.arange(q) - np.repeat(starts, np.diff(np.append(starts, q)))
-    return np.append(np.flatnonzero(within % (2 * _GROUP_SIZE) == 0), q)
 
 
 def _runs(rows: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:

@@ -23,7 +23,6 @@ def to_points(
     threads: int | None = None,
     beside: tuple[Array, Array] | None = None,
     exact: bool | None = None,
-    start: np.ndarray | None = None,
     probes: int = N_PROBE,
 ) -> np.ndarray:
     """Return the point map ``target_to_source (n_t,)`` of a functional map.
@@ -39,10 +38,9 @@ def to_points(
     threads : int, optional
     beside : pair of (n_s, d) and (n_t, d), optional
         Further columns to compare; see :func:`embed`.
-    exact, start, probes
+    exact, probes
         As for :func:`kfmaps.fmap.nearest.nearest`: from about 10,000 points on each side the search is approximate
-        unless ``exact`` says otherwise, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is nearly
-        right.
+        unless ``exact`` says otherwise, and quicker with fewer ``probes``.
     """
     dimensions = C.shape[0] + (0 if beside is None else beside[0].shape[1])
     many = searches_cells(target.mass.shape[0], source.mass.shape[0], dimensions, exact)
@@ -51,10 +49,8 @@ def to_points(
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == images.shape[0]:
-        return nearest(places, images, threads=threads, exact=exact, start=start, probes=probes)
-    if start is not None:
-        start = np.minimum(np.searchsorted(used, start), len(used) - 1)
-    return used[nearest(places, take(images, used), threads=threads, exact=exact, start=start, probes=probes)]
+        return nearest(places, images, threads=threads, exact=exact, probes=probes)
+    return used[nearest(places, take(images, used), threads=threads, exact=exact, probes=probes)]
 
 
 def embed(

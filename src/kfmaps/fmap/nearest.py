@@ -27,7 +27,6 @@ def nearest(
     block: int = 1024,
     threads: int | None = None,
     exact: bool | None = None,
-    start: np.ndarray | None = None,
     probes: int = N_PROBE,
 ) -> np.ndarray:
     """Return for each query the closest of some points, (q,) int64.
@@ -46,8 +45,6 @@ def nearest(
         Python threads; ``None`` takes every core.
     exact : bool, optional
         ``True`` never searches approximately; ``False`` does so on NumPy arrays of any size in many dimensions.
-    start : (q,) int, optional
-        Points not far from the answers, for an approximate search.
     probes : int
         Cells that each query names in an approximate search
         (:func:`kfmaps.fmap.approximate_nearest.approximate_nearest`).
@@ -66,7 +63,7 @@ def nearest(
         if _in_tree(len(points), points.shape[1]):
             return _by_tree(queries, points, threads)
         if searches_cells(len(queries), len(points), points.shape[1], exact):
-            return approximate_nearest(queries, points, threads=threads, probes=probes, start=start)
+            return approximate_nearest(queries, points, threads=threads, probes=probes)
     return _exact(queries, points, block, threads)
 
 

@@ -17,7 +17,7 @@ from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
 from kfmaps._progress import Done
 from kfmaps._records import check_record, setting, settings_record
 from kfmaps._threads import parallel
-from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
+from kfmaps.fmap.approximate_nearest import N_PROBE, N_PROBE_FAST
 from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.fmap.refine import Refined
@@ -48,7 +48,8 @@ class ZoomOut:
     A functional map larger than ``start`` is truncated to it, a smaller one starts at its own size. Where there are
     more than ``samples`` points of the target, the steps before the last work on so many: the functional map is fitted
     to them by damped least squares, each weighted by the area that is closest to it, and of a source with more than
-    twice as many points, or :data:`MAX_CANDIDATES`, that many are there to be chosen.
+    twice as many points, or :data:`MAX_CANDIDATES`, that many are there to be chosen. The map returned is that of the
+    last points, which are all.
 
     ``descriptor_weight`` is the mean squared difference of two random points, which in k functions is about 2 k, and
     has an effect only where :meth:`__call__` is given descriptors; 0 is ZoomOut as published.
@@ -109,11 +110,9 @@ class ZoomOut:
             if progress is not None:
                 progress((i + 1) / len(sizes))
         if points is None:
-            points = self._nearest(C, all_s, all_t, guide, threads, **(_approximate(all_s, all_t) if sampled else {}))
+            points = self._nearest(C, all_s, all_t, guide, threads, probes=N_PROBE_FAST if sampled else N_PROBE)
         if sampled:
-            # Once more with all points, whose functional map owes nothing to the choice of samples.
             C = fit_functional_map(points, source, target, self.stop)
-            points = self._nearest(C, all_s, all_t, guide, threads, start=points)
         if progress is not None:
             progress(1.0)
         return Refined(C, points, tuple(sizes))
