@@ -11,6 +11,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps._records import JsonObject
 from kfmaps.cli.words import plural
+from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, save_map, write_landmarks
@@ -28,34 +29,15 @@ _LONGEST_NAME = 60  # letters of a landmark's name
 
 def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each."""
-    remedy = "give pairs of 0-based vertex numbers, source first"
     if not isinstance(pairs, list) or not all(
         isinstance(pair, list) and len(pair) == 2 and all(type(v) is int for v in pair) for pair in pairs
     ):
+        remedy = "give pairs of 0-based vertex numbers, source first"
         raise refuse("landmarks", "a list of pairs of whole numbers", "something else", remedy)
-    for pair in pairs:
-        for vertex, mesh, name in zip(pair, (source, target), ("source", "target"), strict=True):
-            if not 0 <= vertex < len(mesh.vertices):
-                wanted = f"{name} vertices from 0 to {len(mesh.vertices) - 1}"
-                raise refuse("landmarks", wanted, str(vertex), remedy)
-    for side, name in enumerate(("source", "target")):
-        seen = [pair[side] for pair in pairs]
-        twice = next((vertex for i, vertex in enumerate(seen) if vertex in seen[:i]), None)
-        if twice is not None:
-            raise refuse("landmarks", f"each vertex of the {name} once", f"{twice} twice", "leave one pair out")
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2)
-
-
-def _check_names(names: object, count: int) -> list[str]:
-    """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
-    if names is None:
-        return [""] * count
-    given = names if isinstance(names, list) else []
-    known = [name for name in given if isinstance(name, str) and len(name) <= _LONGEST_NAME]
-    if not isinstance(names, list) or not len(known) == len(names) == count:
-        wanted = f"{count} texts of at most {_LONGEST_NAME} letters"
-        raise refuse("names", wanted, "something else", "give one for each pair")
-    return known
+    found = np.array(pairs).reshape(-1, 2)
+    for column, mesh, side in zip(found.T, (source, target), ("source", "target"), strict=True):
+        check_landmarks(column, len(mesh.vertices), f"landmarks on the {side}")
+    return found.astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +128,10 @@ class PickerServer:
 
     def _save(self, request: JsonObject) -> Reply:
         pairs, path = self._pairs(request), self.picker.output
-        names = _check_names(request.get("names"), len(pairs))
+        names = request.get("names", ())
+        if not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in names):
+            wanted = f"texts of at most {_LONGEST_NAME} letters"
+            raise refuse("names", wanted, "something else", "give one for each pair")
 
         def write(force: bool) -> None:
             write_landmarks(path, pairs, names=names, force=force)
