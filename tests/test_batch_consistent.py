@@ -18,11 +18,11 @@ import pytest
 
 from collecting import AGREED, LANDMARKS, agreed_plan, done, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.consistent import CONSISTENT, _replacement_map, _replacement_result, make_consistent, map_in_use
+from kfmaps.batch.consistent import CONSISTENT, make_consistent, map_in_use
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import Plan, graph_pairs, make_plan
-from kfmaps.batch.results import Result, read_result
+from kfmaps.batch.results import Result, read_result, result_path
 from kfmaps.batch.run import _write_outputs, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
@@ -100,7 +100,7 @@ def test_the_wrong_map_is_replaced_and_no_other(run: tuple[Plan, list[Result]]) 
     assert found.before[Pair("b1", "b3")] == results[[r.target for r in results if r.source == "b1"].index("b3") + 4]
     assert {p: p.read_bytes() for p in before} == before  # the run's own maps are as they were
     ours = load_map(map_in_use(plan.folder, "b1-b3"))
-    assert map_in_use(plan.folder, "b1-b3") == _replacement_map(plan.folder, "b1-b3")
+    assert map_in_use(plan.folder, "b1-b3") == map_path(plan.folder / CONSISTENT, "b1-b3")
     assert map_in_use(plan.folder, "b0-b1") == map_path(plan.folder, "b0-b1")
     assert len(ours.alternatives) == 1
     table = {(r["source"], r["target"]): r for r in rows(plan.folder / CONSISTENT / "pairs.csv")}
@@ -112,10 +112,10 @@ def test_the_wrong_map_is_replaced_and_no_other(run: tuple[Plan, list[Result]]) 
 def test_what_is_finished_is_found_again(run: tuple[Plan, list[Result]]) -> None:
     plan, results = run
     first = make_consistent(plan, results, Alone())
-    stamp = _replacement_map(plan.folder, "b1-b3").stat().st_mtime_ns
+    stamp = map_path(plan.folder / CONSISTENT, "b1-b3").stat().st_mtime_ns
     again = make_consistent(plan, results, Alone())
     assert again.results == first.results
-    assert _replacement_map(plan.folder, "b1-b3").stat().st_mtime_ns == stamp
+    assert map_path(plan.folder / CONSISTENT, "b1-b3").stat().st_mtime_ns == stamp
     # However early it is cut off, the end is the same and nothing that was finished is lost.
     for path in (plan.folder / CONSISTENT).rglob("*.*"):
         path.unlink()
@@ -156,12 +156,12 @@ def test_pairs_that_match_again_are_not_replaced_any_more(run: tuple[Plan, list[
     make_consistent(plan, results, Alone())
     path = map_path(plan.folder, "b1-b3")
     wrong = path.read_bytes()
-    right = load_map(_replacement_map(plan.folder, "b1-b3"))
+    right = load_map(map_path(plan.folder / CONSISTENT, "b1-b3"))
     save_map(path, replace(right, alternatives=()), force=True)
     try:
         assert make_consistent(plan, results, Alone()).replaced == 0
-        assert not _replacement_map(plan.folder, "b1-b3").exists()
-        assert read_result(_replacement_result(plan.folder, "b1-b3")) is None
+        assert not map_path(plan.folder / CONSISTENT, "b1-b3").exists()
+        assert read_result(result_path(plan.folder / CONSISTENT, "b1-b3")) is None
     finally:
         path.write_bytes(wrong)
 
@@ -264,7 +264,7 @@ def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> No
         return sorted(found, key=lambda r: (r.source, r.target))
 
     assert plain(last.results) == plain(wanted.results)
-    ours, theirs = (load_map(_replacement_map(f, "b1-b3")).target_to_source for f in (out, reference))
+    ours, theirs = (load_map(map_path(f / CONSISTENT, "b1-b3")).target_to_source for f in (out, reference))
     np.testing.assert_array_equal(ours, theirs)
     assert not list(out.rglob(f"{_UNFINISHED}*"))
 

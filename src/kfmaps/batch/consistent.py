@@ -6,7 +6,6 @@ The scores of each pair, each composition and each replacement are a file of the
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,19 +19,16 @@ from kfmaps.batch.cache import file_digest, load_record, save_record
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.results import FOLDER as RESULTS
-from kfmaps.batch.results import Result, read_result, write_result, write_rows
+from kfmaps.batch.results import Result, result_path, write_rows
 from kfmaps.batch.run_spec import digest_of
 from kfmaps.batch.shape_statistics import write_shape_statistics
 from kfmaps.batch.work import (
-    MAPS,
     PairTask,
-    capture_errors,
     error_text,
     load_prepared,
-    make_result,
     map_path,
     pair_samples,
+    record_pair,
     save_pair_map,
     true_vertices,
 )
@@ -70,20 +66,10 @@ class ConsistentResult:
         return len(self.before)
 
 
-def _replacement_map(folder: Path, key: str) -> Path:
-    """Return where the map lies that replaces a pair's own."""
-    return folder / CONSISTENT / MAPS / f"{key}.npz"
-
-
-def _replacement_result(folder: Path, key: str) -> Path:
-    """Return where its result lies."""
-    return folder / CONSISTENT / RESULTS / f"{key}.json"
-
-
 def map_in_use(folder: Path, key: str) -> Path:
     """Return the map of a pair: that which replaces its own, or its own."""
-    other = _replacement_map(folder, key)
-    return other if _replacement_result(folder, key).exists() and other.exists() else map_path(folder, key)
+    other = map_path(folder / CONSISTENT, key)
+    return other if result_path(folder / CONSISTENT, key).exists() and other.exists() else map_path(folder, key)
 
 
 def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> ConsistentResult:
@@ -229,41 +215,30 @@ def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
 def _replace_map(job: _ReplaceTask) -> Result:
     """Finish, evaluate and save the map that replaces another unless that is done; a failure is recorded."""
     task, change, folder = job.task, job.change, Path(job.task.folder)
-    path, other = _replacement_result(folder, task.key), _replacement_map(folder, task.key)
-    begun = time.perf_counter()
-    values: dict[str, Any] = {"seconds": {}}
-    inputs = ""
-    with capture_errors() as caught, one_blas_thread():
-        steps = [] if job.path is None else [[n, forward, _map_digest(t)] for t, n, forward in job.path.steps]
-        inputs = digest_of([_map_digest(task), change.kind, change.candidate, steps])
-        there = read_result(path)
-        if there is not None and there.is_of(task.settings, inputs) and other.exists():
-            return there
-        path.unlink(missing_ok=True)
-        other.unlink(missing_ok=True)
+    steps = [] if job.path is None else [[n, forward, _map_digest(t)] for t, n, forward in job.path.steps]
+    other = map_path(folder / CONSISTENT, task.key)
+
+    def replaced() -> dict[str, Any]:
         composition = None
         if job.path is not None:
             made = _evidence(job.path)
             composition = None if made.points is None else (made.points, made.maps[0].reversed)
-        shapes = _shapes(task)
-        config, candidates = replace(task.spec.config, threads=1), _candidates(task)
-        found = refine_replacement(change, candidates, composition, shapes, config, job.label, task.spec.seed)
+        shapes, config = _shapes(task), replace(task.spec.config, threads=1)
+        found = refine_replacement(change, _candidates(task), composition, shapes, config, job.label, task.spec.seed)
         truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
-        values = save_pair_map(task, found, shapes, truth, other)
-    values["seconds"]["total"] = time.perf_counter() - begun
-    result = make_result(
+        return save_pair_map(task, found, shapes, truth, other)
+
+    return record_pair(
         task,
-        inputs,
-        caught,
+        digest_of([_map_digest(task), change.kind, change.candidate, steps]),
+        folder / CONSISTENT,
+        other,
+        replaced,
         changed=job.label,
         why=change.reason(),
         error_before=job.before.error_mean,
         agreement=change.after.probability,
-        **values,
     )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_result(path, result)
-    return result
 
 
 def _shapes(task: PairTask) -> tuple[Shape, Shape]:
@@ -278,8 +253,8 @@ def _remove_replacements(plan: Plan, kept: set[str]) -> None:
     """Remove replacements of maps that are not replaced any more, since others have been matched again."""
     for task in plan.tasks:
         if task.key not in kept:
-            _replacement_result(plan.folder, task.key).unlink(missing_ok=True)
-            _replacement_map(plan.folder, task.key).unlink(missing_ok=True)
+            result_path(plan.folder / CONSISTENT, task.key).unlink(missing_ok=True)
+            map_path(plan.folder / CONSISTENT, task.key).unlink(missing_ok=True)
 
 
 def _write_pairs(

@@ -7,7 +7,7 @@ import os
 import platform
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -141,42 +141,59 @@ def prepare_shape(task: ShapeTask) -> Prepared:
 
 def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
     """Match a pair unless its result is there; save the map and then the result. A failure is recorded, not raised."""
-    folder = Path(task.folder)
-    path = result_path(folder, task.key)
-    there = read_result(path)
-    if there is not None and there.is_of(task.settings, task.inputs):
-        return there
-    start = time.perf_counter()
-    attempt = begin(folder, task.key)
-    map_path(folder, task.key).unlink(missing_ok=True)  # of files that have changed since
-    values: dict[str, Any] = {"seconds": {}}
-    with capture_errors() as caught, one_blas_thread():
+
+    def matched() -> dict[str, Any]:
         for part in (source, target):
             if part.reason:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
-        values = _matched(task)
-    values["seconds"]["total"] = time.perf_counter() - start
-    caught.notes[:0] = [*source.notes, *target.notes]
-    result = make_result(task, task.inputs, caught, attempts=attempt, **values)
-    write_result(path, result)
+        return _matched(task)
+
+    folder = Path(task.folder)
+    return record_pair(
+        task, task.inputs, folder, map_path(folder, task.key), matched, notes=(*source.notes, *target.notes)
+    )
+
+
+def record_pair(
+    task: PairTask, inputs: str, folder: Path, path: Path, make: Callable[[], dict[str, Any]], **values: Any
+) -> Result:
+    """Return the result of a pair in ``folder``, unless there is one made from ``inputs`` that of ``make``.
+
+    ``path``: the map that ``make`` saves; ``values``: further fields of the result.
+    """
+    result_file = result_path(folder, task.key)
+    there = read_result(result_file)
+    if there is not None and there.is_of(task.settings, inputs) and path.exists():
+        return there
+    start = time.perf_counter()
+    attempt = begin(folder, task.key)
+    for old in (result_file, path):  # of files that have changed since
+        old.unlink(missing_ok=True)
+    made: dict[str, Any] = {"seconds": {}}
+    with capture_errors() as caught, one_blas_thread():
+        made = make()
+    made["seconds"]["total"] = time.perf_counter() - start
+    notes = (*values.pop("notes", ()), *caught.notes)
+    result = _make_result(task, caught.reason, inputs, attempts=attempt, notes=notes, **values, **made)
+    result_file.parent.mkdir(parents=True, exist_ok=True)
+    write_result(result_file, result)
     return result
 
 
 def record_failure(task: PairTask, reason: str) -> Result:
     """Record that a pair cannot be matched, for a reason outside the work itself."""
     folder = Path(task.folder)
-    begun = attempts(folder, task.key)
-    result = make_result(task, task.inputs, _Captured(reason), attempts=begun, worker="")
+    result = _make_result(task, reason, task.inputs, attempts=attempts(folder, task.key), worker="")
     write_result(result_path(folder, task.key), result)
     return result
 
 
-def make_result(task: PairTask, inputs: str, caught: _Captured, **values: Any) -> Result:
-    """Return the result of a pair, failed where something went wrong, with the process and the time."""
-    pair, status = task.pair, "failed" if caught.reason else "done"
+def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Result:
+    """The result of a pair, failed where there is a ``reason``, with the process and the time."""
+    pair, status = task.pair, "failed" if reason else "done"
     values = {"worker": f"{platform.node()}:{os.getpid()}", "finished": now(), **values}
-    notes = tuple(dict.fromkeys(caught.notes))
-    return Result(pair.source, pair.target, status, task.settings, inputs, reason=caught.reason, notes=notes, **values)
+    values["notes"] = tuple(dict.fromkeys(values.get("notes", ())))
+    return Result(pair.source, pair.target, status, task.settings, inputs, reason=reason, **values)
 
 
 @dataclass
