@@ -74,7 +74,7 @@ def test_subdivided_meshes_are_as_good(count: int, monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(surface, "_SCATTERED", 400)
     for mesh, genus in ((datasets.sphere(count), 0), (datasets.torus(count), 1)):
         assert len(mesh.vertices) == count
-        assert surface.is_closed(mesh.faces, count, genus)
+        assert surface._is_closed(mesh, genus)
         edges = np.linalg.norm(mesh.vertices[mesh.faces] - mesh.vertices[np.roll(mesh.faces, 1, axis=1)], axis=2)
         assert (edges.max(axis=1) / edges.min(axis=1)).max() < 4
         outside = (face_normals(mesh) * vertex_normals(mesh)[mesh.faces[:, 0]]).sum(axis=1)
@@ -88,7 +88,7 @@ def test_large_pairs_have_their_exact_truth(monkeypatch: pytest.MonkeyPatch) -> 
     pair = datasets.two_poses(6001)
     assert (len(pair.source.vertices), len(pair.target.vertices)) == (6001, 4801)
     for mesh in (pair.source, pair.target):
-        assert surface.is_closed(mesh.faces, len(mesh.vertices))
+        assert surface._is_closed(mesh, 0)
     corners = pair.source.vertices[pair.source.faces[pair.truth_faces]]
     places = (corners * pair.truth_weights[:, :, None]).sum(axis=1)
     spacing = np.sqrt(surface_area(pair.source) / 6001)

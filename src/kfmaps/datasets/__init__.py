@@ -13,7 +13,7 @@ import numpy as np
 from kfmaps._arrays import check_count, refuse
 from kfmaps.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC, WAVE, with_proportions
 from kfmaps.datasets.pairs import ExamplePair, largest_piece, posed_pair
-from kfmaps.datasets.skeleton import Body, Limb
+from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.mesh import Mesh
 
@@ -25,7 +25,6 @@ __all__ = [
     "symmetric_creature",
     "torus",
     "two_poses",
-    "vase",
 ]
 
 _MAX_VERTICES = 300_000  # number of vertices of the largest mesh
@@ -121,32 +120,6 @@ def symmetric_creature(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     rng = np.random.default_rng(rng)
     counts = _counts(vertices)
     return posed_pair("symmetric creature", Body(SYMMETRIC), WAVE, DANCE, counts, rng, mirror=True)
-
-
-def _revolve(body: Body, vertices: int, rng: _Seed) -> Mesh:
-    """Return the surface of revolution about the y axis of a body lying in the half-plane z = 0, x >= 0."""
-
-    def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        radius = np.maximum(np.hypot(points[:, 0], points[:, 2]), 1e-12)
-        values, flat = body(np.stack([radius, points[:, 1], np.zeros_like(radius)], axis=1))
-        across = flat[:, 0] / radius
-        return values, np.stack([across * points[:, 0], flat[:, 1], across * points[:, 2]], axis=1)
-
-    low, high = body.box()
-    box = np.array([[-high[0], low[1], -high[0]], [high[0], high[1], high[0]]])
-    return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng)))
-
-
-def vase(vertices: int = 5000, rng: _Seed = 0) -> Mesh:
-    """Return a hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
-
-    Rotation about the axis changes nothing, so no map between two of them is the right one. ``rng`` places the
-    vertices.
-    """
-    check_count(vertices, "vertices", low=3000, high=_MAX_VERTICES)
-    profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
-    wall = Limb("wall", None, tuple((x, y, 0) for x, y in profile), (0.07,) * len(profile))
-    return _revolve(Body((wall,), segments=60), vertices, rng)
 
 
 def sphere(vertices: int = 2000, rng: _Seed = 0) -> Mesh:

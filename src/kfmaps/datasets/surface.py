@@ -9,8 +9,8 @@ from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
 from kfmaps.geometry.cloud_surface import outward_faces
-from kfmaps.geometry.connectivity import half_edges
-from kfmaps.geometry.mesh import unit_rows
+from kfmaps.geometry.mesh import Mesh, face_areas, unit_rows
+from kfmaps.geometry.topology import topology
 
 _Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 """``field(points (n, 3)) -> (values (n,), gradients (n, 3))``: negative inside, zero on the surface."""
@@ -115,60 +115,29 @@ def _triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
     return outward_faces(points, delaunay.simplices, tetrahedron, opposite)[0].astype(np.int64)
 
 
-def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:
-    """Return whether ``faces`` are one closed oriented manifold of that genus using all ``count`` vertices."""
-    half = half_edges(faces)
-    forth, back = half @ [count, 1], half @ [1, count]
-    once = len(np.unique(forth)) == len(forth)
-    paired = np.array_equal(np.sort(forth), np.sort(back))
-    used = len(np.unique(faces)) == count
-    # A vertex where two sheets touch lowers the characteristic, so this also excludes such vertices.
-    return once and paired and used and count - len(half) // 2 + len(faces) == 2 - 2 * genus
+def _is_closed(mesh: Mesh, genus: int) -> bool:
+    """Return whether a mesh is one closed oriented manifold of that genus that uses all of its vertices."""
+    found = topology(mesh)
+    odd = found.inconsistent_edges or found.unreferenced_vertices
+    return found.is_closed and found.is_manifold and not odd and (found.components, found.genus) == (1, genus)
 
 
 def _subdivide(field: _Field, points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Cut every face in four, then the longest edges in two until there are ``count`` points.
+    """Cut every face in four, then the largest in three until there are ``count`` points.
 
     The new points lie on the surface itself, not on the faces.
     """
-    points, faces = _quarter(points, faces)
-    if count > len(points):
-        points, faces = _halve(points, faces, count - len(points))
-    return _project(field, points, 3)[0], faces
-
-
-def _quarter(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     edges, number = np.unique(np.minimum(a, b) * len(points) + np.maximum(a, b), return_inverse=True)
     middles = 0.5 * (points[edges // len(points)] + points[edges % len(points)])
     across = len(points) + number.reshape(-1, 3)  # the middle of the edge from corner i to corner i + 1
     corners = np.stack([faces, across, across[:, [2, 0, 1]]], axis=2).reshape(-1, 3)
-    return np.concatenate([points, middles]), np.concatenate([corners, across])
-
-
-def _halve(points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Cut the ``count`` longest edges in two, no two of them of one face."""
-    start, stop = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    length = np.linalg.norm(points[start] - points[stop], axis=1)
-    touched: set[int] = set()
-    middles, more = [], []
-    faces = faces.copy()
-    for half in np.argsort(-length, kind="stable"):
-        if len(middles) == count:
-            break
-        other = int(np.flatnonzero((start == stop[half]) & (stop == start[half]))[0])
-        if touched & {half // 3, other // 3}:
-            continue
-        touched |= {half // 3, other // 3}
-        middle = len(points) + len(middles)
-        middles.append(0.5 * (points[start[half]] + points[stop[half]]))
-        for edge in (half, other):
-            face, corner = divmod(int(edge), 3)
-            following = (corner + 1) % 3
-            more.append(faces[face].copy())
-            more[-1][corner] = middle
-            faces[face, following] = middle
-    return np.concatenate([points, middles]), np.concatenate([faces, more])
+    points, faces = np.concatenate([points, middles]), np.concatenate([corners, across])
+    largest = np.argsort(-face_areas(Mesh(points, faces)), kind="stable")[: count - len(points)]
+    cut, centres = faces[largest], len(points) + np.arange(len(largest))
+    thirds = [np.stack([cut[:, i], cut[:, (i + 1) % 3], centres], axis=1) for i in range(3)]
+    points = np.concatenate([points, points[cut].mean(axis=1)])
+    return _project(field, points, 3)[0], np.concatenate([np.delete(faces, largest, axis=0), *thirds])
 
 
 def closed_mesh(
@@ -197,6 +166,6 @@ def closed_mesh(
             faces = _triangulate(points, normals)
         else:
             faces = _triangulate(warp(points), unit_rows(_warped_normals(warp, points, normals)))
-        if is_closed(faces, count, genus):
+        if _is_closed(Mesh(points, faces), genus):
             return points, faces
     raise NotConverged(f"no closed mesh of genus {genus} through {count} points. Ask for more vertices.")
