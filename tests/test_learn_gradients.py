@@ -15,6 +15,7 @@ from kfmaps.fmap.energy import (
     laplacian_term,
     operator_term,
 )
+from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
 from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import Elementwise
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
@@ -26,7 +27,6 @@ torch = pytest.importorskip("torch")
 
 from kfmaps.learn import losses  # noqa: E402
 from kfmaps.learn.energy import (  # noqa: E402
-    _feature_operators,
     differentiable_minimum,
     nystrom_features,
     pair_energy,
@@ -35,6 +35,10 @@ from kfmaps.learn.model import _bind  # noqa: E402
 
 N_S, N_T, K_S, K_T, D = 10, 9, 4, 3, 2
 EXACT = CG(rtol=1e-13, max_iter=500)
+
+
+def _operators(basis, F):
+    return unpack_operators(multiplication_operators(basis, F))
 
 
 def leaf(values):
@@ -65,10 +69,8 @@ def minimum(parts, weights, bases):
 
 TERMS = {
     "descriptors": lambda s, t, F, G: descriptor_term(s, F, t, G),
-    "slices": lambda s, t, F, G: operator_term(_feature_operators(s, F), _feature_operators(t, G)),
-    "antisymmetric slices": lambda s, t, F, G: operator_term(
-        _skew(_feature_operators(s, F)), _skew(_feature_operators(t, G)), -1
-    ),
+    "slices": lambda s, t, F, G: operator_term(_operators(s, F), _operators(t, G)),
+    "antisymmetric slices": lambda s, t, F, G: operator_term(_skew(_operators(s, F)), _skew(_operators(t, G)), -1),
     "kernel descriptors": lambda s, t, F, G: kernel_descriptor_term(Gaussian(0.3), s, F, t, G, block=5),
     "hadamard": lambda s, t, F, G: hadamard_term(Gaussian(0.3), s, F, t, G, block=5),
     "elementwise": lambda s, t, F, G: Elementwise(t.project(G**2)[:, :1] ** 2 + s.project(F**2)[:, :1].T ** 2),

@@ -148,9 +148,12 @@ def _check_rtol(rtol: float) -> None:
 
 
 def _strongest(gram: Array, rtol: float) -> Array:
-    """Eigenvectors of ``gram``, strongest first, without those that hold at most ``rtol`` of its trace together."""
-    energy, rotation = namespace(gram).linalg.eigh(gram)
-    share = to_numpy(energy).clip(min=0.0)
+    """Eigenvectors of ``gram``, strongest first, without those that hold at most ``rtol`` of its trace together.
+
+    They are constants to PyTorch: where eigenvalues coincide, eigenvectors have no derivative.
+    """
+    energy, rotation = np.linalg.eigh(to_numpy(gram))
+    share = energy.clip(min=0.0)
     lost = np.cumsum(share)
     keep = np.flatnonzero((lost > rtol * lost[-1]) & (share > 1e-15 * share[-1]))[::-1]
-    return take(rotation, keep, axis=1)
+    return like(take(rotation, keep, axis=1), gram)

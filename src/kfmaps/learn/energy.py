@@ -19,6 +19,12 @@ from kfmaps._arrays import NotConverged
 from kfmaps._records import short_repr
 from kfmaps.config import Formulation
 from kfmaps.fmap.energy import Energy, Term, descriptor_term, laplacian_term, operator_term
+from kfmaps.fmap.multiplication_operators import (
+    multiplication_operators,
+    truncate_features,
+    truncate_operators,
+    unpack_operators,
+)
 from kfmaps.fmap.preconditioners import sylvester
 from kfmaps.fmap.solvers import CG, Operator, Solution, solve
 from kfmaps.geometry.basis import Basis
@@ -87,41 +93,24 @@ def pair_energy(
     if "descriptors" in weights:
         terms["descriptors"] = descriptor_term(source, W_s, target, W_t)
     if "commutativity" in weights:
-        both = _truncated_operators((source, target), (W_s, W_t), operator_rtol)
-        terms["commutativity"] = operator_term(both[0], both[1])
+        terms["commutativity"] = operator_term(*_operators((source, target), (W_s, W_t), operator_rtol))
     return Energy(terms, {name: weights[name] for name in terms})  # pyright: ignore[reportArgumentType]
 
 
-def _feature_operators(basis: Basis, W: torch.Tensor) -> torch.Tensor:
-    """Return the multiplication operators ``Φᵀ A diag(wᵢ) Φ``, ``(r, k, k)``, of features ``W (n, r)``."""
-    phi, weighted = basis.functions, basis.mass[:, None] * W
-    return torch.stack([phi.T @ (weighted[:, i : i + 1] * phi) for i in range(W.shape[1])])
-
-
-def _truncated_operators(
+def _operators(
     bases: tuple[Basis, Basis], W: tuple[torch.Tensor, torch.Tensor], rtol: float
-) -> list[torch.Tensor]:
-    """Return the operators of both shapes without the weakest, as :mod:`kfmaps.fmap.multiplication_operators` does.
+) -> tuple[torch.Tensor, torch.Tensor]:
+    """Return the multiplication operators ``(r, k, k)`` of both shapes, without the weakest unless ``rtol`` is 0.
 
-    The rotations have no derivative. The energy is the same in every rotation of all features, so only the operators
-    that are dropped make the gradient inexact.
+    The rotations of the features have no derivative. The energy is the same in every rotation of all features, so only
+    the operators that are dropped make the gradient inexact.
     """
-    if not rtol:
-        return [_feature_operators(basis, F) for basis, F in zip(bases, W, strict=True)]
-    with torch.no_grad():
-        bounds = [torch.sqrt(basis.mass * (basis.functions**2).sum(dim=1))[:, None] for basis in bases]
-        rotation = _strongest([(bound * F).T for bound, F in zip(bounds, W, strict=True)], rtol / 2)
-    both = [_feature_operators(basis, F @ rotation) for basis, F in zip(bases, W, strict=True)]
-    with torch.no_grad():
-        rotation = _strongest([X.reshape(len(X), -1) for X in both], rtol)
-    return [torch.tensordot(rotation.T, X, dims=1) for X in both]
-
-
-def _strongest(rows: list[torch.Tensor], rtol: float) -> torch.Tensor:
-    """Return eigenvectors of the Gram matrix of ``rows`` without the weakest, which hold ``rtol`` of its trace."""
-    values, vectors = torch.linalg.eigh(rows[0] @ rows[0].T + rows[1] @ rows[1].T)
-    lost = torch.cumsum(values.clamp(min=0.0), dim=0)
-    return vectors[:, lost > rtol * lost[-1]]
+    if rtol:
+        W = truncate_features(bases[0], W[0], bases[1], W[1], rtol / 2)
+    packed = multiplication_operators(bases[0], W[0]), multiplication_operators(bases[1], W[1])
+    if rtol:
+        packed = truncate_operators(*packed, rtol)
+    return unpack_operators(packed[0]), unpack_operators(packed[1])
 
 
 @dataclass(frozen=True, eq=False)

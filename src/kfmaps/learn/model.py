@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import torch
 from numpy.typing import ArrayLike
+from scipy.linalg import block_diag
 
-from kfmaps._arrays import Array, refuse
+from kfmaps._arrays import refuse
 from kfmaps.config import Config, DescriptorConfig
 from kfmaps.kernels.kernels import Gaussian, KernelLike, Laplacian, Sum, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric, Network, Scaled, forward
@@ -34,35 +35,19 @@ _HIDDEN, _OUTPUTS = 16, 8  # sizes of the network
 _GAMMA_RATIO = 6.0  # ratio of one γ of a mixture to the previous, at the start
 
 
-@dataclass(frozen=True)
-class _Columns:
-    """Groups of descriptors: ``blocks`` of columns, of which those of the same ``kind`` share parameters.
-
-    All landmarks are of one kind, so that what is learned does not depend on which point is the first landmark.
-    """
-
-    blocks: tuple[tuple[int, ...], ...]
-    kinds: tuple[str, ...]
-
-    @property
-    def count(self) -> int:
-        """Return the number of descriptors."""
-        return sum(len(block) for block in self.blocks)
-
-    def pieces(self, D: Array) -> list[tuple[str, Array]]:
-        """Return the kind and the columns of each block of ``D (n, d)``."""
-        return [(kind, D[:, block[0] : block[-1] + 1]) for kind, block in zip(self.kinds, self.blocks, strict=True)]
+_Blocks = list[tuple[str, slice]]
+"""Kind and columns of each block of descriptors. Those of one kind share parameters, so that what is learned does not
+depend on which point is the first landmark."""
 
 
-def _blocks(config: DescriptorConfig, landmarks: int, count: int) -> _Columns:
+def _blocks(config: DescriptorConfig, landmarks: int, count: int) -> _Blocks:
     """Return the blocks of ``count`` descriptors: signature, one for each landmark, SHOT."""
     local = min(352, count) if config.shot else 0
     blocks = landmarks if config.landmark_descriptor != "none" and config.energy_sampling == "even" else 0
     each = spectral_shares(config, blocks)[1] if blocks else 0
     sizes = [("signature", count - local - each * blocks), *[("landmark", each)] * blocks, ("shot", local)]
-    ends = np.cumsum([0, *[size for _, size in sizes]])
-    groups = [(kind, tuple(range(a, b))) for (kind, _), a, b in zip(sizes, ends[:-1], ends[1:], strict=True) if b > a]
-    return _Columns(tuple(block for _, block in groups), tuple(kind for kind, _ in groups))
+    ends = np.cumsum([0, *[size for _, size in sizes]]).tolist()
+    return [(kind, slice(a, b)) for (kind, _), a, b in zip(sizes, ends[:-1], ends[1:], strict=True) if b > a]
 
 
 class Model(torch.nn.Module):
@@ -106,7 +91,7 @@ class Model(torch.nn.Module):
             got = f"{sorted(counts)}"
             raise refuse("pairs", "equally many landmarks and descriptors on all pairs", got, "give as many to each")
         self.config, self.parts, self.kernel = config, tuple(parts), config.kernel
-        self.columns = _blocks(config.descriptors, *counts.pop())
+        self.blocks = _blocks(config.descriptors, *counts.pop())
         gamma = float(np.log(np.median([pair.gamma for pair in pairs])))
         if isinstance(self.kernel, Gaussian | Laplacian):
             middle = np.arange(_COMPONENTS if "mixture" in parts else 1)
@@ -118,11 +103,11 @@ class Model(torch.nn.Module):
             self.kernel = resolve_kernel(self.kernel, pairs[0].samples.numpy(), config.bandwidth_scale)
         self.terms = tuple(name for name in ("descriptors", "laplacian") if getattr(config.weights, name) > 0)
         self._add("log_terms", np.log([getattr(config.weights, name) for name in self.terms]), {"terms"})
-        for kind, block in dict(zip(self.columns.kinds, self.columns.blocks, strict=True)).items():
+        for kind, block in dict(self.blocks).items():
             if "ard" in parts:
-                self._add(f"log_weight_{kind}", np.zeros(len(block)), {"ard"})
+                self._add(f"log_weight_{kind}", np.zeros(block.stop - block.start), {"ard"})
             if "metric" in parts:
-                self._add(f"metric_{kind}", _directions(pairs, self.columns, kind, _rank_of(rank, kind)), {"metric"})
+                self._add(f"metric_{kind}", _directions(pairs, self.blocks, kind, _rank_of(rank, kind)), {"metric"})
         if "network" in parts:
             draw = np.random.default_rng(seed)
             inner = np.hstack([draw.normal(size=(_HIDDEN, len(self.network_columns))) * 2.0, np.zeros((_HIDDEN, 1))])
@@ -143,8 +128,8 @@ class Model(torch.nn.Module):
     def network_columns(self) -> tuple[int, ...]:
         """Return the columns, after the metric, of all but landmarks; of all when there is nothing else."""
         found, start = [], 0
-        for kind, block in zip(self.columns.kinds, self.columns.blocks, strict=True):
-            size = len(self.get_parameter(f"metric_{kind}")) if "metric" in self.parts else len(block)
+        for kind, block in self.blocks:
+            size = len(self.get_parameter(f"metric_{kind}")) if "metric" in self.parts else block.stop - block.start
             if kind != "landmark":
                 found += range(start, start + size)
             start += size
@@ -153,7 +138,8 @@ class Model(torch.nn.Module):
     def transform(self, D: torch.Tensor) -> torch.Tensor:
         """Return transformed descriptors ``(n, r)`` of ``D (n, d)``, the arguments of :meth:`kernel_matrix`."""
         pieces = []
-        for kind, piece in self.columns.pieces(D):
+        for kind, block in self.blocks:
+            piece = D[:, block]
             if "ard" in self.parts:
                 piece = piece * torch.exp(self.get_parameter(f"log_weight_{kind}"))[None, :]
             elif "metric" in self.parts:
@@ -192,17 +178,13 @@ class Model(torch.nn.Module):
         if "network" in self.parts:
             layers = tuple(values[name].tolist() for name in ("layer_0", "layer_1"))
             kernel = Network(kernel, layers, self.network_columns)
-        landmarks = self.columns.kinds.count("landmark") if self.config.descriptors.energy_sampling == "even" else None
+        kinds = [kind for kind, _ in self.blocks]
+        landmarks = kinds.count("landmark") if self.config.descriptors.energy_sampling == "even" else None
         if "ard" in self.parts:
-            weights = [np.exp(values[f"log_weight_{kind}"]) for kind in self.columns.kinds]
+            weights = [np.exp(values[f"log_weight_{kind}"]) for kind in kinds]
             kernel = Metric(kernel, np.concatenate(weights).tolist(), landmarks)
         if "metric" in self.parts:
-            matrices = [values[f"metric_{kind}"] for kind in self.columns.kinds]
-            whole = np.zeros((sum(len(m) for m in matrices), self.columns.count))
-            row = 0
-            for matrix, block in zip(matrices, self.columns.blocks, strict=True):
-                whole[row : row + len(matrix), list(block)] = matrix
-                row += len(matrix)
+            whole = block_diag(*(values[f"metric_{kind}"] for kind in kinds))
             kernel = Metric(kernel, tuple(map(tuple, whole.tolist())), landmarks)
         terms = zip(self.terms, np.exp(values["log_terms"]).tolist(), strict=True)
         weights = replace(self.config.weights, **dict(terms)) if "terms" in self.parts else self.config.weights
@@ -242,7 +224,7 @@ def _bind(kernel: Any, **values: Any) -> Any:
     return record
 
 
-def _directions(pairs: Sequence[TrainingPair], columns: _Columns, kind: str, rank: int) -> np.ndarray:
+def _directions(pairs: Sequence[TrainingPair], blocks: _Blocks, kind: str, rank: int) -> np.ndarray:
     """Return the start of the metric of a kind of descriptors, (rank, d).
 
     The directions in which points of a shape differ most, measured by how much corresponding points of two shapes do
@@ -252,8 +234,8 @@ def _directions(pairs: Sequence[TrainingPair], columns: _Columns, kind: str, ran
     variance, noise = 0.0, 0.0
     for pair in pairs:
         masses = [basis.mass.numpy() / float(basis.mass.sum()) for basis in (pair.source, pair.target)]
-        both = zip(*(columns.pieces(D.numpy()) for D in (pair.descriptors_s, pair.descriptors_t)), strict=True)
-        for parts in ([part for _, part in blocks] for blocks in both if blocks[0][0] == kind):
+        for block in (block for other, block in blocks if other == kind):
+            parts = [D.numpy()[:, block] for D in (pair.descriptors_s, pair.descriptors_t)]
             mean = sum(m @ part for m, part in zip(masses, parts, strict=True)) / 2
             for m, part in zip(masses, parts, strict=True):
                 variance = variance + ((part - mean) * m[:, None]).T @ (part - mean) / 2

@@ -45,8 +45,8 @@ class State:
 
     Attributes
     ----------
-    parameters, best, start : dict of str to tensor
-        Of the model: now, at the epoch that was best on the held-out pairs, and before learning.
+    parameters, best : dict of str to tensor
+        Of the model: now, and at the epoch that was best on the held-out pairs.
     optimizer : dict
         State of Adam.
     history : tuple of Epoch
@@ -54,7 +54,6 @@ class State:
 
     parameters: dict[str, torch.Tensor]
     best: dict[str, torch.Tensor]
-    start: dict[str, torch.Tensor]
     optimizer: dict
     history: tuple[Epoch, ...]
 
@@ -84,7 +83,6 @@ def save(path: str | Path, state: State, settings: str, request: JsonObject) -> 
         "request": request,
         "parameters": state.parameters,
         "best": state.best,
-        "start": state.start,
         "optimizer": state.optimizer,
         "history": [list(astuple(epoch)) for epoch in state.history],
     }
@@ -105,10 +103,10 @@ def load(path: str | Path) -> tuple[State, str, JsonObject]:
     content = read_learned(path)
     try:
         history = tuple(Epoch(*row) for row in content["history"])
-        tensors = [dict(content[name]) for name in ("parameters", "best", "start")]
+        tensors = [dict(content[name]) for name in ("parameters", "best")]
         if not all(isinstance(t, torch.Tensor) for part in tensors for t in part.values()):
             raise TypeError("tensors as parameters")
-        state = State(tensors[0], tensors[1], tensors[2], dict(content["optimizer"]), history)
+        state = State(tensors[0], tensors[1], dict(content["optimizer"]), history)
         return state, str(content["settings"]), dict(content["request"])
     except (KeyError, TypeError, ValueError) as error:
         raise refuse(f"{path}", "a file of kfmaps learn", f"one without {error}", "learn anew") from error

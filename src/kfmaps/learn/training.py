@@ -35,13 +35,10 @@ class TrainingOptions:
     batch : int
         Number of pairs whose gradients are averaged for one step.
     rate : float
-        Adam's; most parameters are logarithms, so 0.1 changes a weight by about a tenth a step.
-    cosine_decay : bool
-        Whether the rate falls to zero over the epochs, as half a cosine.
+        Adam's, which falls to zero over the epochs as half a cosine. Most parameters are logarithms, so 0.1 changes a
+        weight by about a tenth a step.
     patience : int
         Number of epochs without a better mean over the held-out pairs, after which learning stops.
-    start_penalty : float
-        Weight of the mean squared distance of the parameters from their start.
     temperature : float
         Of soft point maps, see :func:`kfmaps.learn.losses.soft_point_map`.
     seconds : float
@@ -58,9 +55,7 @@ class TrainingOptions:
     epochs: int = 5
     batch: int = 2
     rate: float = 0.1
-    cosine_decay: bool = True
     patience: int = 3
-    start_penalty: float = 0.0
     temperature: float = 0.03
     seconds: float = math.inf
     solver: CG = field(default_factory=lambda: CG(rtol=1e-4, max_iter=500))
@@ -77,8 +72,6 @@ class TrainingOptions:
         check_positive(self.temperature, "temperature", "0.03 is usual")
         if not self.seconds > 0:
             raise refuse("seconds", "a number above zero", repr(self.seconds), "leave it out for no limit")
-        if not 0 <= self.start_penalty < float("inf"):
-            raise refuse("start_penalty", "a finite number of at least zero", repr(self.start_penalty), "choose 0, say")
 
 
 def learn(
@@ -155,7 +148,7 @@ class _Run:
             now = self.parameters()
             loss = self.mean_loss(self.pairs, "training pairs", False)
             first = Epoch(0, loss, self.judge(loss), time.perf_counter() - self.begun)
-            return State(now, now, now, self.optimizer.state_dict(), (first,))
+            return State(now, now, self.optimizer.state_dict(), (first,))
         self.model.load_state_dict(state.parameters)
         self.optimizer.load_state_dict(state.optimizer)
         self.begun -= state.history[-1].seconds
@@ -191,10 +184,8 @@ class _Run:
 
     def step(self, pairs: Sequence[TrainingPair], state: State, rng: np.random.Generator, done: float) -> float:
         """Change the parameters by the mean gradient of ``pairs``; return the sum of their losses."""
-        share = 1.0
-        if self.options.cosine_decay:
-            passed = state.history[-1].number + done
-            share = 0.5 * (1 + math.cos(math.pi * min(1.0, passed / self.options.epochs)))
+        passed = (state.history[-1].number + done) / self.options.epochs
+        share = 0.5 * (1 + math.cos(math.pi * min(1.0, passed)))
         for group in self.optimizer.param_groups:
             group["lr"] = self.options.rate * share * group["share"]
         self.optimizer.zero_grad()
@@ -207,10 +198,6 @@ class _Run:
                 raise _stopped(str(error).splitlines()[0], pair.name, state) from error
             total += float(loss.detach())
             _check_finite(self.model, pair.name, total, state)
-        if self.options.start_penalty:
-            learned = [(name, p) for name, p in self.model.named_parameters() if p.requires_grad]
-            distances = [((p - state.start[name]) ** 2).mean() for name, p in learned]
-            (self.options.start_penalty * torch.stack(distances).mean()).backward()
         self.optimizer.step()
         return total
 

@@ -37,7 +37,7 @@ _WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")  
 
 NUMBERS: dict[str, int | float] = {
     **{"pairs": 32, "held_out_pairs": 6, "epochs": 5, "batch": 2, "rate": 0.1, "patience": 3},
-    **{"start_penalty": 0.0, "temperature": 0.03, "seconds": float("inf"), "rank": 0, "seed": 0},
+    **{"temperature": 0.03, "seconds": float("inf"), "rank": 0, "seed": 0},
 }
 """Defaults of --training: numbers of pairs, rows of the metric (0: automatic), and fields of TrainingOptions."""
 
