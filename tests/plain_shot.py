@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps.descriptors.shot import Form
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, vertex_normals
 
 
-def plain_support(mesh: Mesh, form: str, samples: int) -> list[tuple[np.ndarray, np.ndarray, float]]:
+def plain_support(mesh: Mesh, samples: int) -> list[tuple[np.ndarray, np.ndarray, float]]:
     """(point, unit normal, weight) of every support point."""
     normals = vertex_normals(mesh)
-    if form == "paper":
-        return [(p, n, 1.0) for p, n in zip(mesh.vertices, normals, strict=True)]
     found = []
     for face, area in zip(mesh.faces, face_areas(mesh), strict=True):
         m = max(1, round(float(np.sqrt(area * samples / surface_area(mesh)))))
@@ -30,7 +27,7 @@ def plain_support(mesh: Mesh, form: str, samples: int) -> list[tuple[np.ndarray,
     return found
 
 
-def plain_frame(near: list, form: str, radius: float) -> np.ndarray:
+def plain_frame(near: list, radius: float) -> np.ndarray:
     covariance = sum(w * (radius - d) * np.outer(p, p) for p, d, n, w in near)
     normal = np.sum([w * (radius - d) * n for p, d, n, w in near], axis=0)
     middle = np.sum([w * (radius - d) * p for p, d, n, w in near], axis=0)
@@ -40,30 +37,26 @@ def plain_frame(near: list, form: str, radius: float) -> np.ndarray:
         backward = sum(w for p, d, n, w in near if p @ axis < 0)
         return axis if (forward > backward if forward != backward else axis @ otherwise > 0) else -axis
 
-    if form == "paper":
-        z = majority(np.linalg.eigh(covariance)[1][:, 0], normal)
-        x = majority(np.linalg.eigh(covariance)[1][:, 2], middle)
-    else:
-        z = normal / np.linalg.norm(normal)
-        plane = np.linalg.svd(z[None])[2][1:]  # two unit vectors across z
-        x = majority(plane.T @ np.linalg.eigh(plane @ covariance @ plane.T)[1][:, 1], middle)
+    z = normal / np.linalg.norm(normal)
+    plane = np.linalg.svd(z[None])[2][1:]  # two unit vectors across z
+    x = majority(plane.T @ np.linalg.eigh(plane @ covariance @ plane.T)[1][:, 1], middle)
     return np.array([x, np.cross(z, x), z])
 
 
-def plain_shot(mesh: Mesh, radius: float, bins: int, form: Form, samples: int) -> np.ndarray:
+def plain_shot(mesh: Mesh, radius: float, samples: int) -> np.ndarray:
     """The definition in degrees, looking at every volume and every bin of every pair."""
     radius = radius * np.sqrt(surface_area(mesh))
-    support = plain_support(mesh, form, samples)
+    support = plain_support(mesh, samples)
     rows = []
     for vertex in mesh.vertices:
         near = [(p - vertex, np.linalg.norm(p - vertex), n, w) for p, n, w in support]
         near = [pair for pair in near if 0 < pair[1] <= radius]
-        frame = plain_frame(near, form, radius)
-        histogram = np.zeros((8, 2, 2, bins + 1))
+        frame = plain_frame(near, radius)
+        histogram = np.zeros((8, 2, 2, 11))
         for p, d, n, w in near:
             x, y, z = frame @ p
             azimuth, elevation = np.degrees(np.arctan2(y, x)), np.degrees(np.arccos(z / d))
-            fade = min(1, (1 - d / radius) / 0.1) if form == "surface" else 1
+            fade = min(1, (1 - d / radius) / 0.1)
             for a in range(8):
                 turn = abs((azimuth - (45 * a + 22.5) + 180) % 360 - 180) / 45
                 for e in range(2):
@@ -71,9 +64,8 @@ def plain_shot(mesh: Mesh, radius: float, bins: int, form: Form, samples: int) -
                     for s in range(2):
                         shell = abs(d / radius - (0.5 * s + 0.25)) / 0.5
                         volume = w * fade * max(0, 1 - turn) * max(0, 1 - tilt) * max(0, 1 - shell)
-                        cosines = np.linspace(-1, 1, bins + 1)
-                        histogram[a, e, s] += volume * np.maximum(1 - abs(frame[2] @ n - cosines) / (2 / bins), 0)
-        row = histogram.ravel()
-        row = np.sqrt(row) if form == "surface" else row
+                        cosines = np.linspace(-1, 1, 11)
+                        histogram[a, e, s] += volume * np.maximum(1 - abs(frame[2] @ n - cosines) / 0.2, 0)
+        row = np.sqrt(histogram.ravel())
         rows.append(row / np.linalg.norm(row))
     return np.array(rows)

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, get_args
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -23,8 +22,8 @@ from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, unit_rows, vertex_
 
 _AZIMUTHS, _ELEVATIONS, _SHELLS = 8, 2, 2
 _VOLUMES = _AZIMUTHS * _ELEVATIONS * _SHELLS
-
-Form = Literal["surface", "paper"]
+_BINS = 10  # steps of the cosine from -1 to 1: each histogram has a value at each end of a step
+_TIE = 1e-6  # relative difference up to which sums count as equal
 
 _PAIRS = 60_000
 """Pairs of a vertex and a support point in one block: work arrays that fit the cache are nearly twice as fast."""
@@ -33,7 +32,7 @@ _EACH = 8  # one vertex of so many is asked how many those are
 
 @dataclass(frozen=True, eq=False)
 class _Support:
-    """Points (p, 3) that stand for the surface, unit normals (p, 3), the area that each stands for or 1 (p,)."""
+    """Points (p, 3) that stand for the surface, unit normals (p, 3), the area that each stands for (p,)."""
 
     points: np.ndarray
     normals: np.ndarray
@@ -62,11 +61,6 @@ class _Pairs:
             sums[..., self.i[self.first]] = np.add.reduceat(values, self.first, axis=-1)
         return sums
 
-    @property
-    def tie(self) -> float:
-        """Relative difference up to which sums count as equal."""
-        return 1e-6 if self.weight.dtype == np.float32 else 1e-9
-
     @cached_property
     def first(self) -> np.ndarray:
         """The first pair of each vertex that has one."""
@@ -82,8 +76,6 @@ def shot(
     mesh: Mesh,
     radius: float | None = None,
     *,
-    bins: int = 10,
-    form: Form = "surface",
     samples: int = 10_000,
     at: np.ndarray | None = None,
     threads: int | None = None,
@@ -96,6 +88,12 @@ def shot(
     is shared linearly between neighbouring volumes and neighbouring bins (section 3.2 of the paper), and the whole is
     scaled to unit length.
 
+    Unlike the paper's, which counts vertices, it integrates over the surface, so that the triangulation hardly matters:
+    support points inside the faces, weighted by area; the vertical axis is the mean normal, the first axis the
+    principal direction across it, pointing to where the larger part of the area lies; the weight of a point fades over
+    the last tenth of the radius; square roots of the histograms are taken, so that Euclidean distances between
+    descriptors are Hellinger distances.
+
     Parameters
     ----------
     mesh : Mesh
@@ -103,22 +101,9 @@ def shot(
         (:func:`kfmaps.geometry.clean.clean_mesh`); a vertex that no face uses has the descriptor of the nearest one.
     radius : float, optional
         Radius of the ball as a fraction of √area, so that units do not matter; 0.09 when not given.
-    bins : int
-        Steps of the cosine from -1 to 1; each histogram has ``bins + 1`` values, one at each end of a step.
-    form : {"surface", "paper"}
-        What is counted, and in which frame.
-
-        ``"surface"`` integrates over the surface, so that the triangulation hardly matters: support points inside the
-        faces, weighted by area; the vertical axis is the mean normal, the first axis the principal direction across it,
-        pointing to where the larger part of the area lies; the weight of a point fades over the last tenth of the
-        radius; square roots of the histograms are taken, so that Euclidean distances between descriptors are Hellinger
-        distances.
-
-        ``"paper"`` counts vertices and takes the frame from the eigenvectors of their covariance, each pointing to
-        where the larger number of vertices lies (section 3.1). It changes with the triangulation.
     samples : int
-        About how many support points ``"surface"`` uses on the whole mesh, whatever its resolution: large faces are
-        divided, and where there are more than twice as many faces, neighbouring ones are merged.
+        About how many support points the whole mesh has, whatever its resolution: large faces are divided, and where
+        there are more than twice as many faces, neighbouring ones are merged.
     at : (q,) int64, optional
         Vertices whose descriptors are wanted; all when not given.
     threads : int, optional
@@ -128,9 +113,9 @@ def shot(
 
     Returns
     -------
-    (n, 32 · (bins + 1)) float64, or (q, 32 · (bins + 1))
+    (n, 352) float64, or (q, 352)
         Rows of unit length, without negative values. The volume varies slowest: azimuth, elevation, shell, then bin. A
-        row is zero where the ball has no other support point, or (``"surface"``) no mean normal.
+        row is zero where the ball has no other support point, or no mean normal.
 
     Raises
     ------
@@ -139,13 +124,10 @@ def shot(
 
     Notes
     -----
-    Where an axis has as much on one side as on the other, the side of the mean normal (vertical axis) or of the
-    weighted mean position (first axis) decides; the paper counts points around the median distance instead. In a
-    neighbourhood that looks the same turned about its normal, as on a plane, the first axis is arbitrary.
+    Where the first axis has as much on one side as on the other, the side of the weighted mean position decides; the
+    paper counts points around the median distance instead. In a neighbourhood that looks the same turned about its
+    normal, as on a plane, the first axis is arbitrary.
     """
-    if form not in get_args(Form):
-        raise refuse("form", " or ".join(map(repr, get_args(Form))), repr(form), "choose one of them")
-    check_count(bins, "bins")
     check_count(samples, "samples")
     radius = check_positive(0.09 if radius is None else float(radius), "radius", "give a fraction of √area")
     if len(mesh.faces) == 0:
@@ -153,23 +135,20 @@ def shot(
     check(mesh.vertices, "vertices")
     part = clean_mesh(mesh)
     if not part.whole:
-        same = {"bins": bins, "form": form, "samples": samples, "threads": threads, "progress": progress}
+        same = {"samples": samples, "threads": threads, "progress": progress}
         if at is None:
             return shot(part.mesh, radius, **same)[part.to_clean]
         return shot(part.mesh, radius, at=part.to_clean[at], **same)
     mesh = unit_area(mesh)
-    normals = vertex_normals(mesh)
-    vertices = _Support(mesh.vertices, normals, np.ones(len(normals)))
-    support = vertices if form == "paper" else _surface_support(mesh, normals, samples)
+    support = _surface_support(mesh, vertex_normals(mesh), samples)
     tree = KDTree(support.points)
     centres = mesh.vertices if at is None else mesh.vertices[at]
-    result = np.empty((len(centres), _VOLUMES * (bins + 1)))
-
+    result = np.empty((len(centres), _VOLUMES * (_BINS + 1)))
     done = 0
 
     def fill(block: np.ndarray) -> None:
         nonlocal done
-        result[block] = _describe(centres[block], tree, support, radius, bins, form)
+        result[block] = _describe(centres[block], tree, support, radius)
         done += len(block)  # one of several threads may be forgotten: it is only told
         if progress is not None:
             progress(done / len(result))
@@ -260,43 +239,35 @@ def _blocks(vertices: np.ndarray, tree: KDTree, radius: float) -> list[np.ndarra
     return np.split(order, np.flatnonzero(np.diff(block)) + 1)
 
 
-def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: float, bins: int, form: Form) -> np.ndarray:
-    """Descriptors of a few vertices, (b, 32 · (bins + 1))."""
+def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: float) -> np.ndarray:
+    """Descriptors of a few vertices, (b, 352)."""
     found = KDTree(centres).sparse_distance_matrix(tree, radius, output_type="ndarray")
     order = np.argsort(found["i"].astype(np.min_scalar_type(len(centres))), kind="stable")  # radix sort: small numbers
     order = order[found["v"].take(order) > 1e-9 * radius]
     i, j, distance = found["i"].take(order), found["j"].take(order), found["v"].take(order) / radius
     offset = (support.points.take(j, axis=0).T - centres.take(i, axis=0).T) / radius
-    # For an integral over the surface single precision serves: descriptors differ by 3e-6.
-    real = np.float64 if form == "paper" else np.float32
+    real = np.float32  # descriptors differ by 3e-6 from those in double precision
     distance, offset, weight = distance.astype(real), offset.astype(real), support.weights.astype(real).take(j)
     normal = np.ascontiguousarray(support.normals.astype(real).take(j, axis=0).T)
     pairs = _Pairs(i, offset, distance, normal, weight, len(centres))
-    if form == "paper":
-        return unit_rows(_histograms(pairs, _frames(pairs, form), pairs.weight, bins))
     faded = pairs.weight * (10 * (1 - distance)).clip(-np.inf, 1)
-    return unit_rows(np.sqrt(_histograms(pairs, _frames(pairs, form), faded, bins)))
+    return unit_rows(np.sqrt(_histograms(pairs, _frames(pairs), faded)))
 
 
-def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
+def _frames(pairs: _Pairs) -> np.ndarray:
     """Right-handed frames, (count, 3, 3), one axis a row; zero where there is none."""
     offset = pairs.offset
     near = pairs.weight * (1 - pairs.distance).clip(0, np.inf)
     lever = near * offset
     covariance = np.stack([pairs.total(row * offset) for row in lever]).transpose(2, 0, 1)
     mean_normal, moment = pairs.total(near * pairs.normal).T, pairs.total(lever).T
-    if form == "paper":
-        vectors = np.linalg.eigh(covariance)[1]
-        x, z = vectors[:, :, 2], _towards(pairs, vectors[:, :, 0], mean_normal)
-    else:
-        cancelled = np.linalg.norm(mean_normal, axis=1) <= pairs.tie * pairs.total(near)
-        z = unit_rows(np.where(cancelled[:, None], 0, mean_normal))
-        down = z[:, :, None] * z[:, None, :]
-        across = np.eye(3) - down
-        # Below zero z cannot be the principal direction, even where nothing lies across it.
-        down *= np.trace(covariance, axis1=1, axis2=2)[:, None, None]
-        x = np.linalg.eigh(across @ covariance @ across - down)[1][:, :, 2]
-    x = _towards(pairs, x, moment)
+    cancelled = np.linalg.norm(mean_normal, axis=1) <= _TIE * pairs.total(near)
+    z = unit_rows(np.where(cancelled[:, None], 0, mean_normal))
+    down = z[:, :, None] * z[:, None, :]
+    across = np.eye(3) - down
+    # Below zero z cannot be the principal direction, even where nothing lies across it.
+    down *= np.trace(covariance, axis1=1, axis2=2)[:, None, None]
+    x = _towards(pairs, np.linalg.eigh(across @ covariance @ across - down)[1][:, :, 2], moment)
     exists = np.abs(z).max(axis=1) > 0
     return np.stack([x, np.cross(z, x), z], axis=1) * exists[:, None, None]
 
@@ -304,14 +275,14 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
 def _towards(pairs: _Pairs, axis: np.ndarray, fallback: np.ndarray) -> np.ndarray:
     """``axis`` (count, 3) turned to the heavier side, or to the side of ``fallback`` where both weigh the same."""
     height = pairs.along(axis, pairs.offset)
-    votes = pairs.total(pairs.weight * np.sign(np.where(np.abs(height) < pairs.tie, 0, height)))
-    tie = np.abs(votes) <= pairs.tie * pairs.total(pairs.weight)
+    votes = pairs.total(pairs.weight * np.sign(np.where(np.abs(height) < _TIE, 0, height)))
+    tie = np.abs(votes) <= _TIE * pairs.total(pairs.weight)
     side = np.where(tie, np.einsum("ij,ij->i", axis, fallback), votes)
     return np.where(side[:, None] < 0, -axis, axis)
 
 
-def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int) -> np.ndarray:
-    """Histograms with quadrilinear interpolation, (count, 32 · (bins + 1)).
+def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray) -> np.ndarray:
+    """Histograms with quadrilinear interpolation, (count, 352).
 
     In azimuth and cosine a pair is shared between two of many entries, in elevation and distance there are only two: so
     this is a sparse matrix (azimuth, cosine) times a dense one (elevation, distance).
@@ -324,8 +295,8 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     sector = np.floor(turn)
     turn -= sector
     sector = sector.astype(np.int64)
-    step = (cosine + 1) * (bins / 2)
-    first = np.minimum(step.astype(np.int64), bins - 1)
+    step = (cosine + 1) * (_BINS / 2)
+    first = np.minimum(step.astype(np.int64), _BINS - 1)
     step -= first
     rows = np.empty((len(i), 4), dtype=np.int32)
     parts = np.empty((len(i), 4), dtype=weight.dtype)
@@ -334,7 +305,7 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     start = i * _AZIMUTHS
     for a in (0, 1):
         # Minus one is the last of eight, and eight the first.
-        row = (start + ((sector + a) & (_AZIMUTHS - 1))) * (bins + 1) + first
+        row = (start + ((sector + a) & (_AZIMUTHS - 1))) * (_BINS + 1) + first
         rows[:, 2 * a], rows[:, 2 * a + 1] = row, row + 1
     height = np.arccos(np.clip(z / pairs.distance, -1, 1)) * (_ELEVATIONS / np.pi) - 0.5
     depth = pairs.distance * _SHELLS - 0.5
@@ -345,7 +316,6 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
         for d in range(_SHELLS):
             nodes[:, e * _SHELLS + d] = across * inward[d]
     starts = np.arange(0, 4 * len(i) + 1, 4, dtype=np.int32)
-    spread = csc_array((parts.ravel(), rows.ravel(), starts), shape=(count * _AZIMUTHS * (bins + 1), len(i)))
-    summed = spread @ nodes
-    summed = summed.reshape(count, _AZIMUTHS, bins + 1, _ELEVATIONS * _SHELLS)
-    return summed.transpose(0, 1, 3, 2).reshape(count, _VOLUMES * (bins + 1))
+    spread = csc_array((parts.ravel(), rows.ravel(), starts), shape=(count * _AZIMUTHS * (_BINS + 1), len(i)))
+    summed = (spread @ nodes).reshape(count, _AZIMUTHS, _BINS + 1, _ELEVATIONS * _SHELLS)
+    return summed.transpose(0, 1, 3, 2).reshape(count, _VOLUMES * (_BINS + 1))
