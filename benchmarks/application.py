@@ -25,13 +25,14 @@ from shapes import bumpy_pair
 from kfmaps._arrays import Array, is_numpy, namespace, to_numpy
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.energy import hadamard_term, operator_term
+from kfmaps.fmap.full_kernel import hadamard_term
 from kfmaps.fmap.multiplication_operators import (
     multiplication_operators,
     truncate_features,
     truncate_operators,
     unpack_operators,
 )
+from kfmaps.fmap.terms import operator_term
 from kfmaps.kernels.kernels import Linear
 from kfmaps.matching.assemble import CONDENSATION
 from kfmaps.matching.features import kernel_features, pair_descriptors

@@ -16,8 +16,9 @@ from kfmaps.descriptors.shot import mirror_shot
 from kfmaps.descriptors.spectral import heat_signature, wave_signature
 from kfmaps.fmap import descriptor_guidance as guidance
 from kfmaps.fmap import zoomout
-from kfmaps.fmap.energy import Energy, adjoint_term
+from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.solvers import CG, solve
+from kfmaps.fmap.terms import adjoint_term
 from kfmaps.kernels.kernels import Gaussian, resolve_kernel
 from kfmaps.kernels.nystrom import nystrom
 from kfmaps.matching import (

@@ -19,9 +19,11 @@ from data_sets import DataSet
 from experiment import Options, Result, main
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.energy import Energy, OperatorCommutativity, hadamard_term
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.full_kernel import hadamard_term
 from kfmaps.fmap.preconditioners import jacobi, sylvester
 from kfmaps.fmap.solvers import CG, solve
+from kfmaps.fmap.terms import OperatorCommutativity
 from kfmaps.geometry.basis import Basis
 from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import Descriptors, Features, kernel_features, pair_descriptors

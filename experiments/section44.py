@@ -12,9 +12,11 @@ from matplotlib.ticker import NullFormatter
 import style
 from data_sets import DataSet, Pair
 from experiment import Options, Result, Rows, main
-from kfmaps.fmap.energy import Energy, descriptor_term, kernel_descriptor_term, laplacian_term, operator_term
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.full_kernel import kernel_descriptor_term
 from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
 from kfmaps.fmap.solvers import dense_matrix
+from kfmaps.fmap.terms import descriptor_term, laplacian_term, operator_term
 from kfmaps.kernels.kernels import KernelLike, Linear
 from kfmaps.matching.features import kernel_features, pair_descriptors
 from methods import paper

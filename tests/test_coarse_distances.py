@@ -22,9 +22,9 @@ def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:
 def test_distances_are_nearly_those_of_all_edges(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = unit_area(blob(3000))
     sources, limit = np.array([5, 1700, 2999]), 0.3
-    exact = approximate_geodesics(mesh)(sources, limit)
+    exact = approximate_geodesics(mesh)(indices=sources, limit=limit)
     coarser(monkeypatch, 900)
-    found = approximate_geodesics(mesh)(sources, limit)
+    found = approximate_geodesics(mesh)(indices=sources, limit=limit)
     assert found.shape == exact.shape
     near = exact <= 0.9 * limit
     assert np.abs(found - exact)[near].mean() < 0.01
@@ -37,7 +37,7 @@ def test_a_component_that_is_not_reached_stays_far(monkeypatch: pytest.MonkeyPat
     coarser(monkeypatch, 900)
     one = unit_area(blob(1500))
     two = Mesh(np.vstack([one.vertices, one.vertices + 3]), np.vstack([one.faces, one.faces + 1500]))
-    found = approximate_geodesics(two)(np.array([0, 1500]), 0.3)
+    found = approximate_geodesics(two)(indices=np.array([0, 1500]), limit=0.3)
     assert (found[0, 1500:] > 1).all()
     assert (found[1, :1500] > 1).all()
     assert (found[0, :1500] <= 0.3).any()

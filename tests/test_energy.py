@@ -5,19 +5,11 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.fmap.energy import (
-    Energy,
-    adjoint_term,
-    descriptor_term,
-    hadamard_term,
-    inverse_term,
-    kernel_descriptor_term,
-    laplacian_term,
-    operator_term,
-    value,
-)
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.full_kernel import hadamard_term, kernel_descriptor_term
 from kfmaps.fmap.multiplication_operators import multiplication_operators, truncate_operators, unpack_operators
 from kfmaps.fmap.solvers import CG, dense_matrix, solve
+from kfmaps.fmap.terms import adjoint_term, descriptor_term, inverse_term, laplacian_term, operator_term, value
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
 from kfmaps.kernels.nystrom import nystrom
 

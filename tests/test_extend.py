@@ -14,8 +14,8 @@ import pytest
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, as_dict, from_dict
-from kfmaps.fmap.energy import laplacian_term
 from kfmaps.fmap.solvers import CG
+from kfmaps.fmap.terms import laplacian_term
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.io import load_map
 from kfmaps.matching.features import pair_descriptors

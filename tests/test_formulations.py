@@ -12,7 +12,7 @@ from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
 from kfmaps.fmap.constraints import _tangent, minimize_orthogonal, nearest_orthogonal
 from kfmaps.fmap.coupled import RotatedPenalty, RotatedTerm, couple_bases
-from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, operator_term, value
+from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import _LOSSES, Loss, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
     BidirectionalWeights,
@@ -25,7 +25,7 @@ from kfmaps.fmap.minimize import (
 from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
 from kfmaps.fmap.optimal_transport import _costs, _transport, transport_penalty
 from kfmaps.fmap.solvers import CG, Direct, solve
-from kfmaps.fmap.terms import inverse_term
+from kfmaps.fmap.terms import descriptor_term, inverse_term, laplacian_term, operator_term, value
 from kfmaps.fmap.transfer import transfer_functions
 
 GUARDS = (

@@ -7,17 +7,11 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import NotConverged, inner
-from kfmaps.fmap.energy import (
-    Energy,
-    descriptor_term,
-    hadamard_term,
-    kernel_descriptor_term,
-    laplacian_term,
-    operator_term,
-)
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.full_kernel import hadamard_term, kernel_descriptor_term
 from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
 from kfmaps.fmap.solvers import CG, Direct, solve
-from kfmaps.fmap.terms import Elementwise
+from kfmaps.fmap.terms import Elementwise, descriptor_term, laplacian_term, operator_term
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.kernels.transformed import Metric, Scaled
 

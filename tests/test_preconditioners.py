@@ -5,9 +5,11 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import to_numpy
-from kfmaps.fmap.energy import Energy, descriptor_term, hadamard_term, laplacian_term, operator_term
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.full_kernel import hadamard_term
 from kfmaps.fmap.preconditioners import jacobi, sylvester
 from kfmaps.fmap.solvers import CG, dense_matrix, solve
+from kfmaps.fmap.terms import descriptor_term, laplacian_term, operator_term
 from kfmaps.kernels.kernels import Gaussian
 
 GUARDS = ("kfmaps.fmap.energy", "kfmaps.fmap.preconditioners", "kfmaps.fmap.terms")

@@ -7,7 +7,9 @@ is distances. The comparison is in research/local-confidence.md, made by ``bench
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -75,7 +77,7 @@ class LocalDistortion:
 
     part_s: CleanedMesh
     part_t: CleanedMesh
-    reach_s: GraphDistances  # of the cleaned source
+    reach_s: Callable[..., np.ndarray]  # distances on the cleaned source
     samples: np.ndarray  # (q,): vertices of the cleaned target
     # For each 64 samples, which of them is how far from which vertex of the target, where it is near.
     near: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
@@ -90,7 +92,7 @@ class LocalDistortion:
         n = len(points)
         change, whole = np.zeros(n), np.zeros(n)
         for part, near in zip(blocks(len(self.samples), _BLOCK), self.near, strict=True):
-            there = self.reach_s(points[self.samples[part]], 2 * _RADIUS)
+            there = self.reach_s(indices=points[self.samples[part]], limit=2 * _RADIUS)
             rows, columns, here = near
             if lost.any():
                 kept = ~(lost[self.samples[part]][rows] | lost[columns])
@@ -122,45 +124,29 @@ def build_local_distortion(
         samples = used[stratified(target.vertices[used], areas[used], 200, rng=0)]
     reach_t, near = approximate_geodesics(target), []
     for part in blocks(len(samples), _BLOCK):
-        here = reach_t(samples[part], _RADIUS)
+        here = reach_t(indices=samples[part], limit=_RADIUS)
         rows, columns = np.nonzero(here <= _RADIUS)
         near.append((rows, columns, here[rows, columns]))
     return LocalDistortion(part_s, part_t, approximate_geodesics(source), samples, tuple(near))
 
 
 @dataclass(frozen=True, eq=False)
-class GraphDistances:
-    """A surface on which distances are sought; made by :func:`approximate_geodesics`."""
-
-    graph: csr_array  # of the edges of the surface or its copy
-    near: CoarseInterpolation | None = None  # how the surface lies on the copy; ``None`` where there is none
-
-    def __call__(self, vertices: np.ndarray, limit: float) -> np.ndarray:
-        """Return distances (q, n) from ``vertices (q,)``; infinite, or at least larger than ``limit``, beyond that."""
-        if self.near is None:
-            return dijkstra(self.graph, indices=vertices, limit=limit)
-        return self.near.distances(self.graph, vertices, limit)
-
-
-@dataclass(frozen=True, eq=False)
-class CoarseInterpolation:
-    """A surface, ``vertices (n, 3)``, and its coarse copy; ``weights (n, m)`` take values from the copy's vertices."""
+class _CoarseDistances:
+    """Distances on a large surface, ``vertices (n, 3)``, found along the edges of a coarse copy."""
 
     vertices: np.ndarray
     copy: CoarseProxy
-    around: VertexRings
-    weights: csr_array
+    around: VertexRings  # of the copy
+    graph: csr_array  # of the copy's edges
+    weights: csr_array  # (n, m): take values from the copy's vertices
 
-    def distances(self, graph: csr_array, vertices: np.ndarray, limit: float) -> np.ndarray:
-        """Return the distances (q, n) of :class:`GraphDistances`.
-
-        Each source is a further vertex of the copy, joined to the triangles that it lies at.
-        """
-        m, q = len(self.copy.vertices), len(vertices)
-        faces, source = self.around.around(self.copy.owner[vertices])
+    def __call__(self, indices: np.ndarray, limit: float) -> np.ndarray:
+        """Return distances (q, n), each source a further vertex of the copy, joined to the triangles it lies at."""
+        m, q, graph = len(self.copy.vertices), len(indices), self.graph
+        faces, source = self.around.around(self.copy.owner[indices])
         ends = np.unique(np.repeat(source, 3) * m + self.copy.mesh.faces[faces].ravel())
         source, corner = np.divmod(ends, m)
-        lengths = np.linalg.norm(self.vertices[vertices[source]] - self.copy.mesh.vertices[corner], axis=1)
+        lengths = np.linalg.norm(self.vertices[indices[source]] - self.copy.mesh.vertices[corner], axis=1)
         starts = np.concatenate([graph.indptr, graph.indptr[-1] + np.cumsum(np.bincount(source, minlength=q))])
         data = np.concatenate([graph.data, np.maximum(lengths, np.finfo(float).tiny)])
         joined = csr_array((data, np.concatenate([graph.indices, corner]), starts), shape=(m + q, m + q))
@@ -170,14 +156,18 @@ class CoarseInterpolation:
         return np.asarray(self.weights @ np.ascontiguousarray(found.T)).T
 
 
-def approximate_geodesics(mesh: Mesh) -> GraphDistances:
-    """Return what finds distances along the edges of ``mesh``, a surface of any size or a point cloud."""
+def approximate_geodesics(mesh: Mesh) -> Callable[..., np.ndarray]:
+    """Return ``distances(indices=, limit=)`` along the edges of ``mesh``, a surface of any size or a point cloud.
+
+    It returns distances (q, n) from the vertices ``indices (q,)``; infinite, or at least larger than ``limit``, beyond
+    that.
+    """
     n = len(mesh.vertices)
     if n <= _LARGE or len(mesh.faces) == 0:
-        return GraphDistances(geodesic_graph(mesh, 0))
+        return partial(dijkstra, geodesic_graph(mesh, 0))
     copy = coarse_proxy(mesh, spread_vertices(mesh, _COPY_VERTICES))
     few = copy.mesh
     around = vertex_rings(few.faces, len(few.vertices))
     places = closest_among(mesh.vertices, few.vertices, few.faces, *around.around(copy.owner))
     weights = barycentric_matrix(places.faces, places.weights, few.faces, len(few.vertices))
-    return GraphDistances(geodesic_graph(few, 0), CoarseInterpolation(mesh.vertices, copy, around, weights))
+    return _CoarseDistances(mesh.vertices, copy, around, geodesic_graph(few, 0), weights)

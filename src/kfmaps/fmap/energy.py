@@ -8,7 +8,7 @@ exact diagonal of ``A`` and the constant ``c``; :func:`value` of a term is half 
 term                   squared residual                source
 =====================  ==============================  ==============================================
 descriptor_term        ‖C P̂_s − P̂_t‖²                  Ovsjanikov et al. 2012; paper, (2) and (8)
-slice_term             Σᵢ ‖C X_sⁱ − X_tⁱ C‖²           Nogneng, Ovsjanikov 2017; paper, (3) and (9)
+operator_term          Σᵢ ‖C X_sⁱ − X_tⁱ C‖²           Nogneng, Ovsjanikov 2017; paper, (3) and (9)
 hadamard_term          the same for a whole kernel     paper, (10) to (12)
 laplacian_term         ‖C Λ_s − Λ_t C‖²                paper, (1); or Ren et al. 2019: mask="resolvent"
 inverse_term           ‖C D − I‖² + ‖D C − I‖²         Eynard et al. 2016; D (k_s, k_t) the other way
@@ -22,20 +22,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from kfmaps._arrays import Array, refuse
-from kfmaps.fmap.full_kernel import HadamardCommutativity as HadamardCommutativity
-from kfmaps.fmap.full_kernel import hadamard_term as hadamard_term
-from kfmaps.fmap.full_kernel import kernel_descriptor_term as kernel_descriptor_term
-from kfmaps.fmap.terms import Elementwise as Elementwise
-from kfmaps.fmap.terms import GramTerm as GramTerm
-from kfmaps.fmap.terms import OperatorCommutativity as OperatorCommutativity
-from kfmaps.fmap.terms import Term as Term
-from kfmaps.fmap.terms import adjoint_term as adjoint_term
-from kfmaps.fmap.terms import complete_term as complete_term
-from kfmaps.fmap.terms import descriptor_term as descriptor_term
-from kfmaps.fmap.terms import inverse_term as inverse_term
-from kfmaps.fmap.terms import laplacian_term as laplacian_term
-from kfmaps.fmap.terms import operator_term as operator_term
-from kfmaps.fmap.terms import value as value
+from kfmaps.fmap.terms import Term, value
 
 
 @dataclass(frozen=True, eq=False)

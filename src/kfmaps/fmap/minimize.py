@@ -17,11 +17,11 @@ import numpy as np
 
 from kfmaps._arrays import Array
 from kfmaps.fmap.constraints import minimize_orthogonal
-from kfmaps.fmap.energy import Energy, adjoint_term, inverse_term, value
+from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import Penalty
 from kfmaps.fmap.preconditioners import jacobi, sylvester
 from kfmaps.fmap.solvers import Solution, Solver, solve
-from kfmaps.fmap.terms import Term
+from kfmaps.fmap.terms import Term, adjoint_term, inverse_term, value
 
 Constraint = Literal["none", "orthogonal"]
 Preconditioner = Literal["none", "jacobi", "sylvester"]

@@ -18,7 +18,7 @@ import torch
 from kfmaps._arrays import NotConverged
 from kfmaps._records import short_repr
 from kfmaps.config import Formulation
-from kfmaps.fmap.energy import Energy, Term, descriptor_term, laplacian_term, operator_term
+from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.multiplication_operators import (
     multiplication_operators,
     truncate_features,
@@ -27,6 +27,7 @@ from kfmaps.fmap.multiplication_operators import (
 )
 from kfmaps.fmap.preconditioners import sylvester
 from kfmaps.fmap.solvers import CG, Operator, Solution, solve
+from kfmaps.fmap.terms import Term, descriptor_term, laplacian_term, operator_term
 from kfmaps.geometry.basis import Basis
 
 _KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]  # ``(n, d), (m, d) ↦ (n, m)``

@@ -11,22 +11,15 @@ import numpy as np
 
 from kfmaps._arrays import Array, inner, is_numpy, like, refuse, to_numpy
 from kfmaps.config import Config
-from kfmaps.fmap.energy import (
-    Energy,
-    Term,
-    complete_term,
-    descriptor_term,
-    hadamard_term,
-    kernel_descriptor_term,
-    laplacian_term,
-    operator_term,
-)
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.full_kernel import hadamard_term, kernel_descriptor_term
 from kfmaps.fmap.multiplication_operators import (
     multiplication_operators,
     truncate_features,
     truncate_operators,
     unpack_operators,
 )
+from kfmaps.fmap.terms import Term, complete_term, descriptor_term, laplacian_term, operator_term
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.kernels.kernels import KernelLike

@@ -15,11 +15,12 @@ import numpy as np
 
 from kfmaps._arrays import like, refuse
 from kfmaps.config import Config
-from kfmaps.fmap.energy import Energy, laplacian_term
+from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import Loss, RobustData
 from kfmaps.fmap.minimize import MinimizeOptions, Objective, minimize
 from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
 from kfmaps.fmap.solvers import CG
+from kfmaps.fmap.terms import laplacian_term
 from kfmaps.geometry.basis import Basis
 from kfmaps.matching.features import Descriptors
 

@@ -11,7 +11,7 @@ from kfmaps._arrays import Array, KfmapsWarning, check, like, to_numpy
 from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.fmap.coupled import CoupledBases, RotatedPenalty, RotatedTerm, couple_bases
-from kfmaps.fmap.energy import Energy, laplacian_term
+from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import Loss, Penalty, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
     BidirectionalWeights,
@@ -23,6 +23,7 @@ from kfmaps.fmap.minimize import (
 )
 from kfmaps.fmap.optimal_transport import transport_penalty
 from kfmaps.fmap.solvers import CG, Solution
+from kfmaps.fmap.terms import laplacian_term
 from kfmaps.matching.assemble import FitProblem
 
 
