@@ -15,10 +15,8 @@ from kfmaps.fmap.coupled import RotatedPenalty, RotatedTerm, couple_bases
 from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import _LOSSES, Loss, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
-    BidirectionalWeights,
     MinimizeOptions,
     Objective,
-    _solve_quadratic,
     fit_bidirectional,
     minimize,
 )
@@ -271,7 +269,7 @@ def test_stationary_without_constraint(numbers):
     objective = Objective(E, {"sparsity": (0.3, sparse_penalty(E.rhs(), 0.1)), "data": (1.0, robust(numbers, "huber"))})
     C = minimize(objective, MinimizeOptions(CG(rtol=1e-10), max_outer_iter=20), 0 * E.rhs()).value
     for _ in range(100):
-        C = _solve_quadratic(Objective(objective.majorizer(C)), MinimizeOptions(CG(rtol=1e-10)), C).value
+        C = minimize(Objective(objective.majorizer(C)), MinimizeOptions(CG(rtol=1e-10)), C).value
     h = 1e-5
     for D in (E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, 0 * C + 1.0):
         slope = (objective.value(C + h * D) - objective.value(C - h * D)) / (2 * h)
@@ -284,7 +282,7 @@ def test_nothing_extra_is_the_linear_solve_to_the_last_digit(case):
     np.testing.assert_array_equal(
         to_numpy(minimize(Objective(E), how).value), to_numpy(solve(E.apply, E.rhs(), how.solver).value)
     )
-    pair = fit_bidirectional(Objective(E), Objective(E), BidirectionalWeights(0.0, 0.0), how)
+    pair = fit_bidirectional(Objective(E), Objective(E), 0.0, 0.0, how)
     np.testing.assert_array_equal(to_numpy(pair.forth.value), to_numpy(minimize(Objective(E), how).value))
 
 
@@ -296,9 +294,7 @@ def reverse(case):
 def test_swapping_source_and_target_swaps_the_two_maps(numbers):
     forth, back = Objective(numbers[-1]), Objective(reverse(numbers))
     how = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=200, rtol=1e-9)
-    one, other = (
-        fit_bidirectional(*order, BidirectionalWeights(0.2, 0.2), how) for order in ((forth, back), (back, forth))
-    )
+    one, other = (fit_bidirectional(*order, 0.2, 0.2, how) for order in ((forth, back), (back, forth)))
     assert (np.diff(one.history) <= 1e-9 * one.history[0]).all()
     assert one.history[-1] == pytest.approx(other.history[-1], rel=1e-6)
     np.testing.assert_allclose(one.forth.value, other.back.value, atol=1e-2)
@@ -313,8 +309,7 @@ def test_coupling_brings_the_maps_to_each_others_inverse(case):
         return np.linalg.norm(C @ D - np.eye(len(C))) + np.linalg.norm(D @ C - np.eye(len(D)))
 
     free, tied, adjoint = (
-        fit_bidirectional(forth, back, BidirectionalWeights(*weights), TIGHT)
-        for weights in ((0.0, 0.0), (1e3, 0.0), (0.0, 1e3))
+        fit_bidirectional(forth, back, *weights, TIGHT) for weights in ((0.0, 0.0), (1e3, 0.0), (0.0, 1e3))
     )
     assert apart(tied) < 0.5 * apart(free)
     assert np.linalg.norm(to_numpy(adjoint.forth.value) - to_numpy(adjoint.back.value).T) < 0.05

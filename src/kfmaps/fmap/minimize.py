@@ -102,48 +102,32 @@ def minimize(
         ``residuals`` are of the last quadratic step.
     """
     if start is None and (objective.penalties or objective.constraint != "none"):
-        zero = 0.0 * objective.energy.rhs()
-        start = _solve_quadratic(Objective(objective.majorizer(zero)), how, None, progress).value
-    solution = _solve_quadratic(
-        replace(objective, energy=objective.majorizer(start), penalties={}), how, start, progress
-    )
-    if not objective.penalties:
-        return solution
-    last = objective.value(solution.value)
-    steps = solution.steps
-    for _ in range(how.max_outer_iter - 1):
-        energy = objective.majorizer(solution.value)
-        solution = _solve_quadratic(replace(objective, energy=energy, penalties={}), how, solution.value, progress)
-        steps += solution.steps
-        now = objective.value(solution.value)
-        if last - now <= how.rtol * abs(last):
+        start = _solve_quadratic(objective.majorizer(0.0 * objective.energy.rhs()), "none", how, None, progress).value
+    solution, steps, last = None, 0, np.inf
+    for step in range(how.max_outer_iter if objective.penalties else 1):
+        solution = _solve_quadratic(objective.majorizer(start), objective.constraint, how, start, progress)
+        start, steps = solution.value, steps + solution.steps
+        now = objective.value(start) if objective.penalties else 0.0
+        if step and last - now <= how.rtol * abs(last):
             break
         last = now
+    assert solution is not None
     return replace(solution, steps=steps)
 
 
 def _solve_quadratic(
-    objective: Objective, how: MinimizeOptions, start: Array | None, progress: ProgressCallback | None = None
+    energy: Energy, constraint: Constraint, how: MinimizeOptions, start: Array | None, progress: ProgressCallback | None
 ) -> Solution:
-    """The minimiser of an objective without penalties: one linear solve, or one descent along the manifold."""
-    energy = objective.energy
+    """The minimiser of an energy: one linear solve, or one descent along the manifold."""
     inverse = None
     if how.preconditioner == "jacobi":
         inverse = jacobi(energy.diagonal())
     elif how.preconditioner == "sylvester":
         inverse = sylvester(energy)
-    if objective.constraint == "orthogonal":
+    if constraint == "orthogonal":
         assert start is not None
         return minimize_orthogonal(energy, how.solver, start, inverse, progress)
     return solve(energy.apply, energy.rhs(), how.solver, start, inverse, progress)
-
-
-@dataclass(frozen=True)
-class BidirectionalWeights:
-    """How strongly the two maps ``C`` and ``D`` of a pair are tied; see :func:`fit_bidirectional`."""
-
-    inverse: float
-    adjoint: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +143,8 @@ class BidirectionalSolution:
 def fit_bidirectional(
     forth: Objective,
     back: Objective,
-    coupling: BidirectionalWeights,
+    inverse: float,
+    adjoint: float,
     how: MinimizeOptions,
     start: tuple[Array | None, Array | None] = (None, None),
     progress: ProgressCallback | None = None,
@@ -173,14 +158,15 @@ def fit_bidirectional(
     Parameters
     ----------
     forth, back : Objective
-    coupling : BidirectionalWeights
+    inverse, adjoint : float
+        Weights of the coupling.
     how : MinimizeOptions
     start : pair of (k_t, k_s) and (k_s, k_t), or None each
     progress : callable, optional
     """
     one = minimize(forth, how, start[0], progress)
     other = minimize(back, how, start[1], progress)
-    tied = {name: w for name, w in (("inverse", coupling.inverse), ("adjoint", coupling.adjoint)) if w > 0}
+    tied = {name: w for name, w in (("inverse", inverse), ("adjoint", adjoint)) if w > 0}
 
     def with_other(objective: Objective, there: Array) -> Objective:
         make: dict[str, Callable[[Array], Term]] = {"inverse": inverse_term, "adjoint": adjoint_term}

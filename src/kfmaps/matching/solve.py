@@ -14,7 +14,6 @@ from kfmaps.fmap.coupled import CoupledBases, RotatedPenalty, RotatedTerm, coupl
 from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import Loss, Penalty, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
-    BidirectionalWeights,
     MinimizeOptions,
     Objective,
     ProgressCallback,
@@ -81,8 +80,8 @@ def minimize_problem(
     turned = None if rotation is None else CoupledBases(rotation.U_t, rotation.U_s, rotation.history)
     back = objective(task, config, None if start is None else start.T, turned, reverse=True)
     size = typical(task.energy)
-    tied = BidirectionalWeights(asked.inverse_weight * size, asked.adjoint_weight * size)
-    pair = fit_bidirectional(forth, back, tied, how, (start, None), told)
+    tied = asked.inverse_weight * size, asked.adjoint_weight * size
+    pair = fit_bidirectional(forth, back, *tied, how, (start, None), told)
     return Minimised(pair.forth, pair.back.value, forth.breakdown(pair.forth.value))
 
 
