@@ -113,7 +113,7 @@ def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.Capt
         (["--graph", "star:b9"], "b9"),
         (["--graph", "both", "--landmarks", "1,x"], "'1,x'"),
         (["--graph", "both", "--landmarks", "0"], "whole numbers from 1"),
-        (["--graph", "both", "--landmarks", ","], "line numbers, or none"),
+        (["--graph", "both", "--landmarks", ","], "whole numbers from 1 on, with commas between"),
         (["--graph", "near", "--workers", "0"], "workers"),
         (["--graph", "both", "--kernel", "cubic"], "cubic"),
         (["--graph", "both", "--identity"], "--identity"),

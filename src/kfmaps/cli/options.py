@@ -60,3 +60,11 @@ def check_required(verdict: str | None) -> None:
 def meets(verdict: str, required: str | None) -> bool:
     """Return whether a verdict is at least the required one; a single fit, which is not judged, is not."""
     return required is None or verdict in _REQUIRED[: _REQUIRED.index(required) + 1]
+
+
+def line_numbers(text: str, option: str) -> tuple[int, ...]:
+    """Return the numbers of lines, counted from 1, that a text like "201,1121" names; messages name the ``option``."""
+    words = text.replace(",", " ").split()
+    if not words or not all(word.isdecimal() and int(word) for word in words):
+        raise refuse(option, "whole numbers from 1 on, with commas between", repr(text), "count lines from 1")
+    return tuple(map(int, words))

@@ -17,7 +17,7 @@ from kfmaps.batch.progress import RunReport, log_to
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
+from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, line_numbers, meets
 from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent, plural
 from kfmaps.config import Config
@@ -69,7 +69,8 @@ def batch(
     """
     check_required(require)
     count, scheduler = parse_workers(workers)
-    lines, use_files = _lines(landmarks), landmarks is None
+    use_files = landmarks is None
+    lines = () if landmarks in (None, "none") else line_numbers(landmarks, "--landmarks")
     if graph is not None and pairs is not None:
         raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
     collection = find_collection(folder)
@@ -111,18 +112,6 @@ def parse_workers(text: str | None) -> tuple[int | None, str | None]:
     if text is None:
         return None, None
     return (check_count(int(text), "--workers"), None) if text.lstrip("-").isdecimal() else (None, text)
-
-
-def _lines(text: str | None) -> tuple[int, ...]:
-    """The numbers of ``--landmarks``."""
-    words = [] if text in (None, "none") else text.replace(",", " ").split()
-    if text not in (None, "none") and not words:
-        raise refuse("--landmarks", "line numbers, or none", "nothing", "write them with commas between")
-    try:
-        return tuple(check_count(int(word), "--landmarks") for word in words)
-    except ValueError as error:
-        expected = "whole numbers from 1 on, with commas between"
-        raise refuse("--landmarks", expected, repr(text), "count lines from 1, or say none") from error
 
 
 def describe_plan(plan: Plan) -> str:

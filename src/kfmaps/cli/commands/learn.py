@@ -15,7 +15,7 @@ import typer
 from kfmaps._arrays import check_count, refuse
 from kfmaps._records import JsonObject
 from kfmaps.batch.layout import Pair, ShapeFolder, find_collection
-from kfmaps.cli.options import Identity, Json, Quiet
+from kfmaps.cli.options import Identity, Json, Quiet, line_numbers
 from kfmaps.cli.progress import Stages
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
@@ -102,7 +102,7 @@ def learn(
     stopped = state_file.is_file() and not force
     for path in {output, state_file, output.with_suffix(".png")}:
         check_output(path, force or stopped)
-    lines = _lines(truth_landmarks)
+    lines = tuple(line - 1 for line in line_numbers(truth_landmarks, "--truth-landmarks")) if truth_landmarks else ()
     requested = settings.config(_start(bool(lines)))
     config = replace(requested, fit_samples=min(requested.fit_samples or _MAX_SAMPLES, _MAX_SAMPLES))
     with Stages(quiet or json) as stages:
@@ -156,11 +156,8 @@ def learn(
 
 def _losses(text: str) -> dict[str, float]:
     """Return the names and weights of a text like "geodesic,cycle=0.1"."""
-    weights = {}
-    for word in (part.strip() for part in text.split(",") if part.strip()):
-        name, sign, weight = word.partition("=")
-        weights[name.strip()] = _number(f"--loss {word}", weight, float) if sign else 1.0
-    return weights
+    words = [part.partition("=") for part in text.split(",") if part.strip()]
+    return {name.strip(): _number(f"--loss {name}", weight, float) if sign else 1.0 for name, sign, weight in words}
 
 
 def _numbers(assignments: list[str]) -> dict[str, int | float]:
@@ -170,7 +167,7 @@ def _numbers(assignments: list[str]) -> dict[str, int | float]:
         name, _, value = (part.strip() for part in text.partition("="))
         if name not in NUMBERS:
             raise refuse(f"--training {text}", "one of " + ", ".join(NUMBERS), repr(name), "write epochs=5, say")
-        numbers[name] = _number(f"--training {text}", value, type(NUMBERS[name]))
+        numbers[name] = _number(f"--training {name}", value, type(NUMBERS[name]))
     for name in ("pairs", "held_out_pairs"):
         check_count(int(numbers[name]), f"--training {name}")
     return numbers
@@ -182,14 +179,6 @@ def _number(name: str, text: str, kind: type) -> int | float:
     except ValueError as error:
         expected = "a whole number" if kind is int else "a number"
         raise refuse(name, expected, repr(text), "write it as NAME=NUMBER") from error
-
-
-def _lines(text: str) -> tuple[int, ...]:
-    """Return the numbers of --truth-landmarks, counted from 0."""
-    words = text.split(",") if text else []
-    if not all(word.strip().isdecimal() and int(word) > 0 for word in words):
-        raise refuse("--truth-landmarks", "lines of the truth, with commas", repr(text), "write them as 201,1121")
-    return tuple(int(word) - 1 for word in words)
 
 
 def _start(landmarks: bool) -> Config:
