@@ -100,35 +100,31 @@ def _check_range(numbers: np.ndarray, count: int, name: str) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Accuracy:
-    """How good a map is: its errors, those against the mirrored truth, and what part of the source it reaches.
+    """How good a map is. What is not known, or does not apply, is ``None``."""
 
-    ``matched``: part of the truth's points that the map gives a counterpart; the others are in no mean. ``precise``:
-    the errors of points inside triangles; ``smooth``: whether the map tears or folds; where known.
-    """
-
-    errors: Evaluation
-    mirrored: Evaluation | None
-    coverage: float
-    precise: Evaluation | None = None
-    smooth: Smoothness | None = None
-    matched: float = 1.0
+    errors: Evaluation  # in units of √area, of a part of those of the whole
+    matched: float = 1.0  # part of the truth's points that the map gives a counterpart; the others are in no mean
+    coverage: float | None = None  # part of the source's area that something is mapped to
+    mirrored: Evaluation | None = None  # errors against the mirrored truth
+    precise: Evaluation | None = None  # errors of points inside triangles
+    smoothness: Smoothness | None = None
+    overlap: float | None = None  # intersection over union, by area of the whole, of the found and the true common part
+    missing: float | None = None  # part of the whole's area that the part lacks
 
     def as_dict(self) -> dict[str, object]:
-        """Return plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
-        found = {**numbers_of(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
-        if self.matched < 1:
-            found["matched"] = self.matched
-        if self.mirrored is not None:
-            found["mirrored"] = numbers_of(self.mirrored)
-        if self.precise is not None:
-            found["precise"] = numbers_of(self.precise)
-        if self.smooth is not None:
-            found["smoothness"] = asdict(self.smooth)
+        """Return plain numbers for JSON, errors in units of √area."""
+        found = {**_numbers(self.errors), "points": len(self.errors.errors)}
+        for name in ("matched", "coverage", "mirrored", "precise", "smoothness", "overlap", "missing"):
+            value = getattr(self, name)
+            if isinstance(value, Evaluation | Smoothness):
+                found[name] = _numbers(value) if isinstance(value, Evaluation) else asdict(value)
+            elif value is not None and math.isfinite(value):
+                found[name] = value
         return found
 
 
-def numbers_of(errors: Evaluation) -> dict[str, float | None]:
-    """Return the numbers of an evaluation by name, ``None`` for infinite ones."""
+def _numbers(errors: Evaluation) -> dict[str, object]:
+    """The numbers of an evaluation by name, ``None`` for infinite ones."""
     names = ("mean", "median", "worst", "auc", "exact")
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
@@ -175,7 +171,7 @@ def assess(
         if len(common.faces):
             smooth = smoothness(source, common, np.maximum(target_to_source, 0) if place is None else place)
     reached = coverage(target_to_source, source)
-    return Accuracy(errors(truth.target), swapped, reached, precise, smooth, float(matched.mean()))
+    return Accuracy(errors(truth.target), float(matched.mean()), reached, swapped, precise, smooth)
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:

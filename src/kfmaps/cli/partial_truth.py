@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,8 +9,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import refuse
-from kfmaps.cli.evaluation import numbers_of
-from kfmaps.fmap.evaluate import Evaluation, precise_errors, summarize_errors
+from kfmaps.cli.evaluation import Accuracy
+from kfmaps.fmap.evaluate import precise_errors, summarize_errors
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
@@ -63,29 +62,12 @@ def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
     return PartTruth(pairs[:, 1], vertex_point_map(pairs[:, 0], whole), False)
 
 
-@dataclass(frozen=True, eq=False)
-class PartAccuracy:
-    """How good a map between a part and a whole is."""
-
-    errors: Evaluation  # in units of √area of the whole
-    # Part of the points with a known truth (of the true common area, where the source is the part) that the map gives a
-    # counterpart; the others are in no mean.
-    matched: float
-    overlap: float | None  # intersection over union, by area of the whole, of the common part found and the true one
-    missing: float  # part of the whole's area that the part lacks
-
-    def as_dict(self) -> dict[str, object]:
-        """Return plain numbers for JSON."""
-        known = {"matched": self.matched, "overlap": self.overlap, "missing": self.missing}
-        finite = {name: value for name, value in known.items() if value is None or math.isfinite(value)}
-        return {**numbers_of(self.errors), "points": len(self.errors.errors), **finite}
-
-
-def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: str) -> PartAccuracy:
+def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: str) -> Accuracy:
     """Compare a map with the truth of its ``part``, "source" or "target".
 
     Of a target that is a part the errors are distances on the source between where its vertices go and belong; of a
-    source that is a part, distances on the target between its vertices and where what is mapped to them belongs.
+    source that is a part, distances on the target between its vertices and where what is mapped to them belongs, and
+    ``matched`` is a share of the true common area.
     """
     points = found.target_to_source
     place = precise_points(found, source) or vertex_point_map(np.maximum(points, 0), source)
@@ -111,7 +93,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
     if part == "source":
         matched = float(areas[(points >= 0) & true_common].sum() / max(areas[true_common].sum(), 1e-300))
     missing = 1 - float(areas[true_common].sum() / areas.sum())
-    return PartAccuracy(errors, matched, share, missing)
+    return Accuracy(errors, matched, overlap=share, missing=missing)
 
 
 def _carried_on(

@@ -11,10 +11,9 @@ from rich.table import Table
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.cli.evaluation import Accuracy, assess, known_truth, write_curve
 from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TruthLists
-from kfmaps.cli.partial_truth import PartAccuracy, part_accuracy, read_part_truth
+from kfmaps.cli.partial_truth import part_accuracy, read_part_truth
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.cli.words import UNIT, percent
-from kfmaps.fmap.evaluate import Evaluation
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, check_output, load_map
 from kfmaps.io.partial_map import precise_points
@@ -75,7 +74,7 @@ def evaluate(
     if json:
         print_json(accuracy.as_dict())
     else:
-        Terminal().print(_part_table(accuracy) if isinstance(accuracy, PartAccuracy) else _table(accuracy))
+        Terminal().print(_table(accuracy))
 
 
 def _target(given: Path | None, found: Match, map: Path) -> Mesh | None:
@@ -89,9 +88,15 @@ def _target(given: Path | None, found: Match, map: Path) -> Mesh | None:
     return mesh if len(mesh.vertices) == len(found.target_to_source) else None
 
 
-def _errors_table(caption: str, sides: dict[str, Evaluation]) -> Table:
-    """A column of errors for each evaluation."""
-    table = Table("", caption=f"errors in {UNIT}{caption}", caption_justify="left")
+def _table(accuracy: Accuracy) -> Table:
+    """Errors, beside those of points inside triangles and against the mirrored truth where they are known; shares."""
+    precise, mirrored, smooth = accuracy.precise, accuracy.mirrored, accuracy.smoothness
+    of_part = accuracy.missing is not None
+    sides = {"" if of_part else "error" if precise is None else "vertices": accuracy.errors}
+    sides |= {} if precise is None else {"points in triangles": precise}
+    sides |= {} if mirrored is None else {"against the mirrored truth": mirrored}
+    unit = " of the whole, points inside triangles" if of_part else ": per cent of the square root of the source's area"
+    table = Table("", caption=f"errors in {UNIT}{unit}", caption_justify="left")
     for name in sides:
         table.add_column(name, justify="right")
     every = list(sides.values())
@@ -100,36 +105,18 @@ def _errors_table(caption: str, sides: dict[str, Evaluation]) -> Table:
     table.add_row(f"area under the curve to {100 * every[0].auc_limit:g} %", *(f"{e.auc:.4f}" for e in every))
     table.add_row("points without error", *(f"{100 * e.exact:.1f} %" for e in every))
     table.add_row("points compared", *(f"{len(e.errors):,}" for e in every))
-    return table
-
-
-def _part_table(accuracy: PartAccuracy) -> Table:
-    table = _errors_table(" of the whole, points inside triangles", {"": accuracy.errors})
-    table.add_row("of the truth's points matched", f"{100 * accuracy.matched:.1f} %")
-    if accuracy.overlap is not None:
-        table.add_row("overlap, intersection over union", f"{100 * accuracy.overlap:.1f} %")
-    table.add_row("missing of the whole's area", f"{100 * accuracy.missing:.1f} %")
-    return table
-
-
-def _table(accuracy: Accuracy) -> Table:
-    """Errors, beside those of points inside triangles and against the mirrored truth where they are known."""
-    precise, mirrored, smooth = accuracy.precise, accuracy.mirrored, accuracy.smooth
-    sides = {"error" if precise is None else "vertices": accuracy.errors}
-    sides |= {} if precise is None else {"points in triangles": precise}
-    sides |= {} if mirrored is None else {"against the mirrored truth": mirrored}
-    table = _errors_table(": per cent of the square root of the source's area", sides)
-    if accuracy.matched < 1:
-        table.add_row("of the truth's points matched", f"{100 * accuracy.matched:.1f} %")
-    if smooth is None:
-        table.add_row("source covered", f"{100 * accuracy.coverage:.1f} %")
-    else:
-        for name, value in (
-            ("source covered, with neighbours", smooth.coverage),
-            ("target's area turned over", smooth.flipped_area),
-            ("edges stretched or shrunk twofold", smooth.stretched_area),
-        ):
-            table.add_row(name, *[""] * (precise is not None), f"{100 * value:.1f} %")
+    beside = [""] * (precise is not None)
+    for value, name, *empty in (
+        (accuracy.matched if of_part or accuracy.matched < 1 else None, "of the truth's points matched"),
+        (accuracy.overlap, "overlap, intersection over union"),
+        (accuracy.missing, "missing of the whole's area"),
+        (accuracy.coverage if smooth is None else None, "source covered"),
+        (smooth and smooth.coverage, "source covered, with neighbours", *beside),
+        (smooth and smooth.flipped_area, "target's area turned over", *beside),
+        (smooth and smooth.stretched_area, "edges stretched or shrunk twofold", *beside),
+    ):
+        if value is not None:
+            table.add_row(name, *empty, f"{100 * value:.1f} %")
     if mirrored is not None and mirrored.mean < accuracy.errors.mean:
         table.add_row("", "left and right are swapped", style="bold red")
     return table
