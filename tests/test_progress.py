@@ -14,16 +14,15 @@ from collecting import CONFIG
 from conftest import blob
 from kfmaps.batch.progress import RunReport, RunStatus
 from kfmaps.batch.results import Result
-from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, _seconds_left, standing
+from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, standing
 from kfmaps.shape import prepare
 
 
 def test_what_is_left_follows_from_what_is_done() -> None:
     """A quarter done in ten seconds leaves thirty; nothing done leaves what such a stage took before."""
-    assert _seconds_left(0.25, 10) == pytest.approx(30)
-    assert _seconds_left(0, 10) is None
-    assert _seconds_left(0, 10, before=25) == 15
-    assert _seconds_left(0, 30, before=25) is None
+    assert standing("solve", 0, 10) == "solve: 10 s so far"
+    assert standing("solve", 0, 10, before=25) == "solve: 10 s so far, about 15 s left"
+    assert standing("solve", 0, 30, before=25) == "solve: 30 s so far"
     assert standing("candidates", 0.25, 10) == "candidates: 25 % done, 10 s so far, about 30 s left"
     assert standing("energy", 0, 400) == "energy: 7 min so far"
 

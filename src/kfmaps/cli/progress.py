@@ -6,8 +6,7 @@ import sys
 import threading
 import time
 from html import escape as html_escape
-from types import TracebackType
-from typing import Any, Protocol
+from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -23,29 +22,16 @@ _SECONDS_OF_SILENCE = 15.0  # where there is no terminal, a stage that goes on f
 _SECONDS_BETWEEN_PICTURES = 0.2  # a notebook's bars are drawn anew no more often
 
 
-def _seconds_left(done: float, elapsed: float, before: float | None = None) -> float | None:
-    """Return what a stage will still take, by how much of it is done, else by what such a stage took ``before``.
-
-    ``None`` while neither tells.
-    """
-    if done >= 0.02:
-        return elapsed * (1 - done) / done
-    return None if before is None or before <= elapsed else before - elapsed
+def _time_left(done: float, elapsed: float, before: float | None = None) -> str:
+    """What a stage will still take, by how much of it is done, else by what such a stage took ``before``."""
+    left = elapsed * (1 - done) / done if done >= 0.02 else (before or 0.0) - elapsed
+    return f", about {format_seconds(left)} left" if left > 0 else ""
 
 
 def standing(name: str, done: float, elapsed: float, before: float | None = None) -> str:
     """Return how a stage stands, in one line."""
     part = f"{100 * done:.0f} % done, " if done > 0 else ""
-    left = _seconds_left(done, elapsed, before)
-    rest = "" if left is None else f", about {format_seconds(left)} left"
-    return f"{name}: {part}{format_seconds(elapsed)} so far{rest}"
-
-
-class _Way(Protocol):
-    """One way of telling."""
-
-    def tell(self, name: str, done: float) -> None: ...
-    def close(self) -> None: ...
+    return f"{name}: {part}{format_seconds(elapsed)} so far{_time_left(done, elapsed, before)}"
 
 
 class _Bars:
@@ -158,10 +144,9 @@ def _bars_html(stages: dict[str, tuple[float, float]]) -> str:
     """Return a table of bars: for each stage how much of it is done, from 0 to 1, and its seconds."""
     rows = []
     for name, (done, elapsed) in stages.items():
-        left = _seconds_left(done, elapsed) if done < 1 else None
-        rest = "" if left is None else f", about {format_seconds(left)} left"
         bar = f'<progress max="1" value="{done:.3f}"></progress>'
-        rows.append(f"<tr><td>{html_escape(name)}</td><td>{bar}</td><td>{format_seconds(elapsed)}{rest}</td></tr>")
+        times = format_seconds(elapsed) + _time_left(done, elapsed)
+        rows.append(f"<tr><td>{html_escape(name)}</td><td>{bar}</td><td>{times}</td></tr>")
     return f"<table>{''.join(rows)}</table>"
 
 
@@ -173,21 +158,17 @@ class Stages:
 
     def __init__(self, quiet: bool = False) -> None:
         self._quiet = quiet
-        self._way: _Way | None = None
+        self._way: _Bars | Lines | _Notebook | None = None
 
     def __enter__(self) -> Stages:
         console = Terminal(file=sys.stderr)
-        if self._quiet:
-            self._way = None
-        elif console.is_jupyter:
+        if console.is_jupyter and not self._quiet:
             self._way = _Notebook()
-        else:
+        elif not self._quiet:
             self._way = _Bars(console) if console.is_terminal else Lines()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._way is not None:
             self._way.close()
 
