@@ -42,19 +42,8 @@ def nystrom_features(
     """Return Nyström features of descriptors, differentiable in the kernel's parameters.
 
     ``W = k(D, S) L⁻ᵀ`` with the Cholesky factor of ``k(S, S) = L Lᵀ``: the same ``W Wᵀ`` as from eigenvectors, which
-    is all that the energy depends on, but with a derivative where eigenvalues coincide.
-
-    Parameters
-    ----------
-    kernel : callable
-        ``(n, d), (m, d) ↦ (n, m)``.
-    D_s, D_t : (n_s, d), (n_t, d) tensors
-        Descriptors of source and target.
-    samples : (q, d) tensor
-
-    Returns
-    -------
-    (n_s, q), (n_t, q) tensors
+    is all that the energy depends on, but with a derivative where eigenvalues coincide. ``kernel`` maps (n, d), (m, d)
+    to (n, m); descriptors ``D_s (n_s, d)`` and ``D_t (n_t, d)`` with ``samples (q, d)`` give (n_s, q) and (n_t, q).
     """
     R = kernel(samples, samples)
     size = torch.diagonal(R).mean().detach()
@@ -149,12 +138,8 @@ def differentiable_minimum(energy: Energy, solver: CG) -> Minimum:
     energy : Energy
         Positive definite, of terms made from PyTorch tensors; weights may be tensors too.
     solver : CG
-        For the map and for its derivative. The gradient's relative error is of the order of ``rtol``.
-
-    Returns
-    -------
-    Minimum
-        Running out of steps shows in ``solution.status``.
+        For the map and for its derivative. The gradient's relative error is of the order of ``rtol``. Running out of
+        steps shows in ``solution.status``.
 
     Raises
     ------

@@ -33,15 +33,9 @@ _MAX_COUPLED = (400, 1000)  # largest number of target and source points of the 
 
 
 def functional_map(model: Model, pair: TrainingPair, solver: CG, operator_rtol: float = 0.0) -> torch.Tensor:
-    """Return the map ``C (k, k)`` that minimises the model's energy of a pair, differentiable in its parameters.
+    """Return the map ``C (k, k)`` that minimises the model's energy of a ``pair``, differentiable in its parameters.
 
-    Parameters
-    ----------
-    model : Model
-    pair : TrainingPair
-    solver : CG
-    operator_rtol : float
-        See :func:`pair_energy`.
+    ``solver`` and ``operator_rtol`` are those of :class:`~kfmaps.learn.training.TrainingOptions`.
     """
     transformed = [model.transform(D) for D in (pair.descriptors_s, pair.descriptors_t, pair.samples)]
     W_s, W_t = nystrom_features(model.kernel_matrix, *transformed)
@@ -60,21 +54,10 @@ def pair_loss(
     temperature: float = 0.03,
     rng: np.random.Generator | None = None,
 ) -> torch.Tensor:
-    """Return the weighted sum of losses of a pair.
+    """Return the weighted sum of losses of a ``pair``.
 
-    Parameters
-    ----------
-    model : Model
-    pair : TrainingPair
-    weights : mapping of str to float
-        Weights of :data:`LOSSES`.
-    solver : CG
-    operator_rtol : float
-        See :func:`pair_energy`.
-    temperature : float
-        Of soft point maps, see :func:`soft_point_map`.
-    rng : Generator, optional
-        For the points of the coupling loss.
+    ``weights`` of :data:`LOSSES`, ``solver``, ``operator_rtol`` and ``temperature`` are those of
+    :class:`~kfmaps.learn.training.TrainingOptions`; ``rng`` draws the points of the coupling loss.
 
     Raises
     ------
@@ -108,16 +91,9 @@ def check_losses(weights: Mapping[str, float]) -> None:
 
 
 def point_error(model: Model, pair: TrainingPair, *, solver: CG, operator_rtol: float = 0.0) -> float:
-    """Return the mean geodesic error of the raw point map, in √area, at the known correspondences of a pair.
+    """Return the mean geodesic error of the raw point map, in √area, at the known correspondences of a ``pair``.
 
-    Parameters
-    ----------
-    model : Model
-    pair : TrainingPair
-        With a truth.
-    solver : CG
-    operator_rtol : float
-        See :func:`pair_energy`.
+    ``solver`` and ``operator_rtol`` are those of :class:`~kfmaps.learn.training.TrainingOptions`.
     """
     if pair.truth is None:
         raise refuse("held-out pairs", "pairs with a truth", f"{pair.name} without one", "judge by the loss")

@@ -107,9 +107,6 @@ def training_pair(
 
     Parameters
     ----------
-    source, target : Shape
-    config : Config
-        Settings that learning starts from.
     landmarks : (l, 2) whole numbers, optional
         Pairs "source, target", as for :func:`kfmaps.match`.
     truth : pair of arrays (q,), (q,), optional

@@ -21,22 +21,13 @@ from kfmaps.viz.figures import TEXT, style_axes
 class Epoch:
     """Losses after an epoch; epoch 0 is before learning.
 
-    Attributes
-    ----------
-    number : int
-    loss : float
-        Mean over the training pairs.
-    held_out : float
-        Mean over the held-out pairs: the geodesic error of their raw point maps in √area where their truth is known,
-        else the loss.
-    seconds : float
-        Since the start.
+    ``held_out`` is the geodesic error of raw point maps in √area where the truth is known, else the loss.
     """
 
     number: int
-    loss: float
-    held_out: float
-    seconds: float
+    loss: float  # mean over the training pairs
+    held_out: float  # mean over the held-out pairs
+    seconds: float  # since the start
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,16 +57,9 @@ class State:
 
 
 def save(path: str | Path, state: State, settings: str, request: JsonObject) -> None:
-    """Write a state, its settings and the request that it answers.
+    """Write the file ``path``: a ``state``, and plain values beside it.
 
-    Parameters
-    ----------
-    path : str or Path
-    state : State
-    settings : str
-        TOML of the best parameters.
-    request : dict of plain values
-        What a later run must ask for again to continue from here.
+    ``settings`` are the TOML of the best parameters, ``request`` is what a later run must ask for again to continue.
     """
     content = {
         "format": FORMAT,
@@ -113,13 +97,9 @@ def load(path: str | Path) -> tuple[State, str, JsonObject]:
 
 
 def learning_figure(history: Sequence[Epoch], *, truth: bool = True) -> Figure:
-    """Draw the training loss and the held-out error by epoch; a ring marks the epoch that was kept.
+    """Draw the training loss and the held-out error by epoch of a ``history``; a ring marks the epoch that was kept.
 
-    Parameters
-    ----------
-    history : sequence of Epoch
-    truth : bool
-        Whether held-out pairs were judged by the error of their point maps, drawn times 100, or by the loss.
+    With ``truth`` held-out pairs were judged by the error of their point maps, drawn times 100, else by the loss.
     """
     figure = Figure(figsize=(5.5, 4.2), facecolor="white", layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)

@@ -128,18 +128,25 @@ def following_view(source_view: View, source: Mesh, target: Mesh, target_to_sour
     seen to do so.
     """
     turn = rotation_between(source, target, target_to_source)
-    return source_view if turn is None else View(turn @ source_view.towards, turn @ source_view.up)
+    return source_view if turn is None else _turned(source_view, turn)
 
 
-def view_by_truth(source_view: View, source: np.ndarray, target: np.ndarray) -> View:
-    """Return the same view from corresponding places (q, 3) that are known to be true, so that they alone decide.
+def true_views(
+    source: Mesh, target: Mesh, truth_s: np.ndarray, truth_t: np.ndarray, source_view: View | None = None
+) -> tuple[View, View]:
+    """Return views of source and target from the same side by the truth, however wrong a map may be.
 
-    It is the same view, unless the rotation that best carries the source onto the target turns by more than 45 degrees.
+    ``truth_s (q,)`` and ``truth_t (q,)`` are corresponding vertices. It is the same view, unless the rotation that best
+    carries the source onto the target turns by more than 45 degrees. A map with left and right swapped would have the
+    camera go round to the back, where it looks right.
     """
-    turn, alike = fit_rotation(source, target)
-    if alike < _LIKENESS or not _is_turned(turn):
-        return source_view
-    return View(turn @ source_view.towards, turn @ source_view.up)
+    view = source_view or automatic_view(source)
+    turn, alike = fit_rotation(source.vertices[truth_s], target.vertices[truth_t])
+    return view, _turned(view, turn) if alike >= _LIKENESS and _is_turned(turn) else view
+
+
+def _turned(view: View, turn: np.ndarray) -> View:
+    return View(turn @ view.towards, turn @ view.up)
 
 
 def fit_rotation(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:

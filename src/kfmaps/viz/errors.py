@@ -1,4 +1,4 @@
-"""What the truth tells pictures and pages: the error at every vertex, and where to look from."""
+"""The error at every vertex, as pictures and pages show it."""
 
 from __future__ import annotations
 
@@ -9,16 +9,13 @@ from scipy.spatial import KDTree
 
 from kfmaps.fmap.evaluate import geodesic_errors, truth_from_pairs
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.viz.camera import View, automatic_view, view_by_truth
 
 
 def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray, truth_t: np.ndarray) -> np.ndarray:
     """Return the geodesic error of each map at each target vertex, (m, n_t), in √area.
 
-    NaN where the truth is not known, or a vertex has no counterpart.
-
-    ``truth_s (q,)`` and ``truth_t (q,)``: corresponding vertices. Of several truths for one target vertex the last
-    counts.
+    NaN where the truth is not known, or a vertex has no counterpart. ``truth_s (q,)`` and ``truth_t (q,)`` are
+    corresponding vertices. Of several truths for one target vertex the last counts.
     """
     rows = np.full((len(maps), len(maps[0])), np.nan)
     # All at once, so that one search from a true vertex serves every map.
@@ -37,13 +34,7 @@ def painted_errors(
 
     A vertex whose truth is not known, or that has no counterpart (−1), takes the error of the nearest one that has
     both: right for a picture, not for a mean. On another component the error is the largest of all, and at least 1.
-
-    Parameters
-    ----------
-    source, target : Mesh
-    target_to_source : (n_t,) int64
-    truth_s, truth_t : (q,) int64
-        Corresponding vertices, at least one. Of several truths for one target vertex the last counts.
+    The arguments are those of :func:`vertex_errors` for the one map ``target_to_source (n_t,)``.
     """
     errors = vertex_errors(source, [np.asarray(target_to_source)], truth_s, truth_t)[0]
     known, unknown = np.flatnonzero(~np.isnan(errors)), np.flatnonzero(np.isnan(errors))
@@ -53,15 +44,3 @@ def painted_errors(
     errors[endless] = max(errors[np.isfinite(errors)].max(initial=0.0), 1.0)
     errors[unknown] = errors[known[KDTree(target.vertices[known]).query(target.vertices[unknown])[1]]]
     return errors
-
-
-def true_views(
-    source: Mesh, target: Mesh, truth_s: np.ndarray, truth_t: np.ndarray, source_view: View | None = None
-) -> tuple[View, View]:
-    """Return views of source and target from the same side by the truth, however wrong a map may be.
-
-    ``truth_s (q,)`` and ``truth_t (q,)`` are corresponding vertices.
-    A map with left and right swapped would have the camera go round to the back, where it looks right.
-    """
-    source_view = source_view or automatic_view(source)
-    return source_view, view_by_truth(source_view, source.vertices[truth_s], target.vertices[truth_t])
