@@ -71,7 +71,7 @@ def make(name, case, asarray, convert):
     if name in ("inverse", "adjoint"):
         D = rng.normal(size=(K_S, K_T))
         if name == "adjoint":
-            return adjoint_term(asarray(D), 0.8), lambda C: C - 0.8 * D.T
+            return adjoint_term(asarray(D)), lambda C: C - D.T
         pair = lambda C: np.concatenate([(C @ D - np.eye(K_T)).ravel(), (D @ C - np.eye(K_S)).ravel()])  # noqa: E731
         return inverse_term(asarray(D)), pair
     parts = {n: make(n, case, asarray, convert) for n in ("descriptors", "slices", "laplacian")}

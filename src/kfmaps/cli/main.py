@@ -127,7 +127,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _open_streams()
             _keep_freed_memory()
             status = _run(words)
-            return _flushed(status)
+            sys.stdout.flush()
+            return status
         except KeyboardInterrupt:
             return _INTERRUPTED
         except BrokenPipeError:
@@ -159,17 +160,6 @@ def _open_streams() -> None:
                     os.dup2(nothing, number)
                     os.close(nothing)
             setattr(sys, name, open(os.devnull, "r+" if name == "stdin" else "w", encoding="utf-8"))  # noqa: SIM115
-
-
-def _flushed(status: int) -> int:
-    """``status`` once all that was printed is out, or that of a failure."""
-    try:
-        sys.stdout.flush()
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        return _unwritable(error)
-    return status
 
 
 def _unwritable(error: OSError) -> int:

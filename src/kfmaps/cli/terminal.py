@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -33,13 +32,8 @@ class _Plain:
         self.inside = inside
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        yield from _printable(console.render(self.inside, options))
-
-
-def _printable(segments: Iterable[Segment]) -> Iterable[Segment]:
-    for text, style, control in segments:
-        lines = text if control else "\n".join(map(shown, text.split("\n")))
-        yield Segment(lines, style, control)
+        for text, style, control in console.render(self.inside, options):
+            yield Segment(text if control else "\n".join(map(shown, text.split("\n"))), style, control)
 
 
 def say(text: str) -> None:

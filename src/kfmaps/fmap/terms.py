@@ -304,21 +304,14 @@ def inverse_term(back: Array) -> GramTerm:
     return GramTerm(back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t), back.T @ back)
 
 
-def adjoint_term(back: Array, ratio: float = 1.0) -> GramTerm:
-    """Return ``½‖C − ratio backᵀ‖²``, which ties a map to the adjoint of one the other way (Huang and Ovsjanikov 2017).
+def adjoint_term(back: Array) -> GramTerm:
+    """Return ``½‖C − backᵀ‖²`` for a map ``back (k_s, k_t)`` the other way (Huang and Ovsjanikov 2017).
 
-    In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas up
-    to a constant factor is its adjoint divided by it.
-
-    Parameters
-    ----------
-    back : (k_s, k_t)
-    ratio : float
-        That factor; shapes of unit area have 1.
+    In bases that are orthonormal in the area the adjoint is the transpose: the map back of one that keeps areas.
     """
     xp = namespace(back)
     one = xp.eye(back.shape[0], dtype=back.dtype, device=back.device)
-    return GramTerm(one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
+    return GramTerm(one, back.T, 0.5 * inner(back, back))
 
 
 def _zeros(k: int, like: Array) -> Array:

@@ -7,7 +7,7 @@ kernels, a function of your own): :func:`kernel_matrix` calls it and checks what
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, is_dataclass, replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -26,15 +26,6 @@ class Kernel(Protocol):
 
     def diagonal(self, X: Array, /) -> Array:
         """Return the values ``k(x, x)``, (n,), of rows of ``X (n, d)``."""
-        ...
-
-
-@runtime_checkable
-class _Resolvable(Protocol):
-    """A kernel of transformed descriptors; see :mod:`kfmaps.kernels.transformed`."""
-
-    def resolved(self, samples: Array, sharpness: float) -> Kernel:
-        """Return the same kernel with every automatic γ made a number, from ``samples (q, d)`` and ``sharpness``."""
         ...
 
 
@@ -232,13 +223,11 @@ def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -
     sharpness : float
         A number without unit, so that scaling all descriptors does not change the kernel's values.
     """
-    if isinstance(kernel, Sum | Product):
-        return replace(
-            kernel, a=resolve_kernel(kernel.a, samples, sharpness), b=resolve_kernel(kernel.b, samples, sharpness)
-        )
-    if isinstance(kernel, _Resolvable):
-        return kernel.resolved(samples, sharpness)
-    if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
+    if not isinstance(kernel, Gaussian | Laplacian):
+        seen = kernel.transform(samples) if hasattr(kernel, "transform") else samples
+        inside = {name: resolve_kernel(inner, seen, sharpness) for name, inner in inner_kernels(kernel).items()}
+        return replace(kernel, **inside) if inside else kernel
+    if kernel.gamma is not None:
         return kernel
     squares = to_numpy(_squared_distances(samples, samples))
     # Between equal rows there is rounding, of the size of the rows.
@@ -247,6 +236,12 @@ def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -
     typical = float(np.median(positive)) if positive.size else 1.0
     gamma = sharpness / typical
     return replace(kernel, gamma=gamma if isinstance(kernel, Gaussian) else float(np.sqrt(gamma)))
+
+
+def inner_kernels(kernel: KernelLike) -> dict[str, KernelLike]:
+    """Return the kernels that a record of this package is made of, by the names of their fields."""
+    own = is_dataclass(kernel) and not isinstance(kernel, type)
+    return {name: getattr(kernel, name) for name in ("kernel", "a", "b") if own and hasattr(kernel, name)}
 
 
 def _known(kernel: Gaussian | Laplacian) -> float:

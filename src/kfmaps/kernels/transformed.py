@@ -6,16 +6,14 @@ descriptors, puts the network's outputs beside them and takes the Gaussian kerne
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
-from typing import Self
 
 import numpy as np
 
 from kfmaps._arrays import Array, check_count, like, namespace, refuse, take
 from kfmaps._records import setting, settings_record
 from kfmaps.kernels import kernels
-from kfmaps.kernels.kernels import Gaussian, KernelLike, describe_kernel, kernel_diagonal, kernel_matrix, resolve_kernel
+from kfmaps.kernels.kernels import Gaussian, KernelLike, describe_kernel, inner_kernels, kernel_diagonal, kernel_matrix
 
 
 @settings_record
@@ -32,10 +30,6 @@ class _Transformed:
 
     def diagonal(self, X: Array, /) -> Array:
         return kernel_diagonal(self.kernel, self.transform(X))
-
-    def resolved(self, samples: Array, sharpness: float) -> Self:
-        """Return the same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
 
 
 @settings_record
@@ -119,10 +113,6 @@ class Scaled:
     def diagonal(self, X: Array, /) -> Array:
         return self.factor * kernel_diagonal(self.kernel, X)
 
-    def resolved(self, samples: Array, sharpness: float) -> Scaled:
-        """Return the same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolve_kernel(self.kernel, samples, sharpness))
-
 
 KERNELS: tuple[type, ...] = (*kernels.PLAIN_KERNELS, Metric, Network, Scaled)
 """Every kernel that a settings file can name."""
@@ -134,15 +124,14 @@ def descriptor_width(kernel: KernelLike) -> int | None:
         return int(np.shape(kernel.matrix)[-1])
     if isinstance(kernel, Network) and not kernel.columns:
         return len(kernel.layers[0][0]) - 1
-    inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
-    return next((found for found in map(descriptor_width, inside) if found is not None), None)
+    inside = map(descriptor_width, inner_kernels(kernel).values())
+    return next((found for found in inside if found is not None), None)
 
 
 def n_kernel_landmarks(kernel: KernelLike) -> int | None:
     """Return of how many landmarks the descriptors of ``kernel`` are; ``None`` if it does not say."""
-    own = getattr(kernel, "landmarks", None)
-    inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
-    return next((found for found in (own, *map(n_kernel_landmarks, inside)) if found is not None), None)
+    inside = map(n_kernel_landmarks, inner_kernels(kernel).values())
+    return next((found for found in (getattr(kernel, "landmarks", None), *inside) if found is not None), None)
 
 
 def forward(layers: tuple[Array, ...], X: Array) -> Array:
