@@ -33,7 +33,7 @@ FILES = {
 def vase(vertices: int, seed: int) -> kfmaps.Mesh:
     """A hollow vase, a surface of revolution about the y axis: turned about it it is the same."""
     profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
-    body = Body((Limb("wall", None, tuple((x, y, 0) for x, y in profile), (0.07,) * len(profile)),), segments=60)
+    body = Body((Limb("wall", None, tuple((x, y, 0, 0.07) for x, y in profile)),), segments=60)
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         radius = np.maximum(np.hypot(points[:, 0], points[:, 2]), 1e-12)

@@ -19,7 +19,7 @@ def skin(vertices: np.ndarray) -> Skin:
     names = tuple(limb.name for limb in LIMBS)
     parents = np.array([-1 if limb.parent is None else names.index(limb.parent) for limb in LIMBS])
     matrices = np.tile(np.eye(4), (len(LIMBS), 1, 1))
-    matrices[:, :3, 3] = [limb.points[0] for limb in LIMBS]
+    matrices[:, :3, 3] = [limb.balls[0][:3] for limb in LIMBS]
     away = np.stack([BODY._distances(vertices, i)[0].min(axis=1) for i in range(len(LIMBS))], axis=1)
     weights = np.exp((away.min(axis=1, keepdims=True) - away) / 0.03)
     return Skin(names, parents, matrices, weights / weights.sum(axis=1, keepdims=True))

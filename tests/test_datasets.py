@@ -185,7 +185,9 @@ def test_creature_has_no_mirror_image_in_itself() -> None:
     points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
     beside = np.abs(body(points * [-1, 1, 1])[0])
     assert (beside > 0.03).mean() > 0.2
-    lengths = {limb.name: np.linalg.norm(np.diff(limb.points, axis=0), axis=1).sum() for limb in CREATURE}
+    lengths = {
+        limb.name: np.linalg.norm(np.diff(np.array(limb.balls)[:, :3], axis=0), axis=1).sum() for limb in CREATURE
+    }
     for part in ("ear", "arm", "leg", "foot"):
         ratio = lengths[f"left {part}"] / lengths[f"right {part}"]
         assert max(ratio, 1 / ratio) > 1.2, part

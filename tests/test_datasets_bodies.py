@@ -21,7 +21,7 @@ def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:
     numeric = np.stack([(body(points + s)[0] - body(points - s)[0]) / 2e-6 for s in steps], axis=1)
     difference = np.abs(numeric - gradients).max(axis=1)[near]
     assert np.percentile(difference, 98) < 1e-6, "all but points above a kink of the radius"
-    middles = np.array([limb.points[1] for limb in CREATURE])
+    middles = np.array([limb.balls[1][:3] for limb in CREATURE])
     assert (body(middles)[0] < 0).all()
     assert body(np.array([[0.5, 0.2, 0.3]]))[0][0] > 0
 

@@ -19,12 +19,11 @@ _MAX_POINTS = 250_000  # largest number of points whose field is computed at onc
 
 @dataclass(frozen=True)
 class Limb:
-    """A tube along a smooth curve."""
+    """A tube along a smooth curve through the centres of balls."""
 
     name: str
     parent: str | None  # the limb that carries it; None for the trunk, which comes first
-    points: tuple[tuple[float, float, float], ...]  # what the curve passes through, from the root to the tip
-    radii: tuple[float, ...]  # the tube's radius at each of them
+    balls: tuple[tuple[float, float, float, float], ...]  # x, y, z and radius of each, from the root to the tip
 
 
 @dataclass(frozen=True)
@@ -55,11 +54,11 @@ class Body:
         self.segments = segments
         nodes, radii, places = [], [], []
         for limb in limbs:
-            points = np.array(limb.points)
+            points, thickness = np.array(limb.balls)[:, :3], np.array(limb.balls)[:, 3]
             along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
             fine = np.linspace(0, along[-1], self.segments + 1)
             nodes.append(CubicSpline(along, points)(fine))
-            radii.append(PchipInterpolator(*_with_level_ends(along, np.array(limb.radii)))(fine))
+            radii.append(PchipInterpolator(*_with_level_ends(along, thickness))(fine))
             places.append(np.interp(fine, along, np.arange(len(points))))
         self.nodes, self.radii, self.places = np.array(nodes), np.array(radii), np.array(places)
         """(limbs, segments + 1, ...): along each limb the position, radius and place among its points."""
@@ -129,7 +128,7 @@ class Body:
                 middles = 0.5 * (self.nodes[p, :-1] + self.nodes[p, 1:])
                 s = int(np.linalg.norm(middles - nodes[0], axis=1).argmin())
                 frame, at = turned[p, s], linear[p, s] @ nodes[0] + offset[p, s]
-            turns = np.zeros((len(limb.points), 3))
+            turns = np.zeros((len(limb.balls), 3))
             turns[: len(bend.turns)] = np.deg2rad(np.array(bend.turns).reshape(-1, 3))
             middle = 0.5 * (self.places[i, :-1] + self.places[i, 1:])
             share = np.maximum(1 - np.abs(middle[:, None] - np.arange(len(turns))), 0)
