@@ -97,21 +97,11 @@ def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMa
 
 @dataclass(frozen=True)
 class Smoothness:
-    """How smooth and how nearly one-to-one a map is.
+    """How smooth and how nearly one-to-one a map is."""
 
-    Attributes
-    ----------
-    coverage : float
-        Part of the source's area with an image nearby: that of the vertices of which a face has one.
-    flipped : float
-        Part of the target's area whose triangles come out turned over.
-    stretched : float
-        Part of the target's edges that come out more than twice as long, or less than half.
-    """
-
-    coverage: float
-    flipped_area: float
-    stretched_area: float
+    coverage: float  # part of the source's area with an image nearby: that of the vertices of which a face has one
+    flipped_area: float  # part of the target's area whose triangles come out turned over
+    stretched_area: float  # part of the target's edges that come out more than twice as long, or less than half
 
 
 def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smoothness:

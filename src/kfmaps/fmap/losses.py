@@ -89,31 +89,16 @@ class Loss:
 
 @dataclass(frozen=True, eq=False)
 class RobustData:
-    """``½ Σ_g s_g ρ(e_g / s_g)``, ``e_g = Σ_{i in g} ‖C p_i − q_i‖² + ν ‖C X_i − Y_i C‖²``: data by groups.
+    """``½ Σ_g s_g ρ(e_g / s_g)``, ``e_g = Σ_{i in g} ‖C p_i − q_i‖² + ν ‖C X_i − Y_i C‖²``: data by groups."""
 
-    Attributes
-    ----------
-    coefficients_s, coefficients_t : (k_s, r), (k_t, r)
-        ``p_i`` and ``q_i``, a column for each descriptor or feature.
-    groups : (r,) int64
-        The group of each column; a group below zero keeps the squared loss.
-    loss : Loss
-    slices_s, slices_t : (r, k_s, k_s), (r, k_t, k_t) or None
-        Symmetric, ``X_i`` and ``Y_i``.
-    commutativity : float
-        ``ν``.
-    sizes : (g,) float64 or None
-        ``s_g``, for a loss of relative residuals; ``None`` is 1 for all.
-    """
-
-    coefficients_s: Array
-    coefficients_t: Array
-    groups: np.ndarray
+    coefficients_s: Array  # (k_s, r): ``p_i``, a column for each descriptor or feature
+    coefficients_t: Array  # (k_t, r): ``q_i``
+    groups: np.ndarray  # (r,): the group of each column; a group below zero keeps the squared loss
     loss: Loss
-    slices_s: Array | None = None
-    slices_t: Array | None = None
-    commutativity: float = 0.0
-    sizes: np.ndarray | None = None
+    slices_s: Array | None = None  # (r, k_s, k_s): ``X_i``, symmetric
+    slices_t: Array | None = None  # (r, k_t, k_t): ``Y_i``
+    commutativity: float = 0.0  # ``ν``
+    sizes: np.ndarray | None = None  # (g,): ``s_g``, for a loss of relative residuals; ``None`` is 1 for all
 
     def residuals(self, C: Array) -> np.ndarray:
         """Return the squared residuals ``e / s`` at ``C`` of the groups ``0, 1, …``, (g,)."""

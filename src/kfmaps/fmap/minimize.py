@@ -31,17 +31,10 @@ ProgressCallback = Callable[[int, float], None]
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """``energy(C) + Σ weight · penalty(C)`` over all maps, or over orthonormal ones.
-
-    Attributes
-    ----------
-    energy : Energy
-    penalties : mapping of name to (weight, Penalty)
-    constraint : "none" or "orthogonal"
-    """
+    """``energy(C) + Σ weight · penalty(C)`` over all maps, or over orthonormal ones."""
 
     energy: Energy
-    penalties: Mapping[str, tuple[float, Penalty]] = field(default_factory=dict)
+    penalties: Mapping[str, tuple[float, Penalty]] = field(default_factory=dict)  # weights and penalties by name
     constraint: Constraint = "none"
 
     def value(self, C: Array) -> float:
@@ -62,23 +55,12 @@ class Objective:
 
 @dataclass(frozen=True)
 class MinimizeOptions:
-    """How an objective is minimised.
+    """How an objective is minimised."""
 
-    Attributes
-    ----------
-    solver : CG or Direct
-        Of each quadratic step.
-    preconditioner : {"none", "jacobi", "sylvester"}
-    max_outer_iter : int
-        Most quadratic steps.
-    rtol : float
-        Relative decrease of the objective below which no step follows.
-    """
-
-    solver: Solver
+    solver: Solver  # of each quadratic step
     preconditioner: Preconditioner = "sylvester"
-    max_outer_iter: int = 20
-    rtol: float = 1e-4
+    max_outer_iter: int = 20  # most quadratic steps
+    rtol: float = 1e-4  # relative decrease of the objective below which no step follows
 
 
 def minimize(

@@ -32,22 +32,13 @@ _STIFFNESS = 10.0
 
 @dataclass(frozen=True, eq=False)
 class TransportPenalty:
-    """The penalty above, between some points of both shapes; made by :func:`transport_penalty`.
+    """The penalty above, between some points of both shapes; made by :func:`transport_penalty`."""
 
-    Attributes
-    ----------
-    functions_s, functions_t : (m_s, k_s), (m_t, k_t)
-    mass_s, mass_t : (m_s,), (m_t,)
-        Areas that the points stand for, of sum 1.
-    blur : float
-        ``ε``, in the unit of the squared distances.
-    """
-
-    functions_s: Array
-    functions_t: Array
-    mass_s: Array
-    mass_t: Array
-    blur: float
+    functions_s: Array  # (m_s, k_s)
+    functions_t: Array  # (m_t, k_t)
+    mass_s: Array  # (m_s,): areas that the points stand for, of sum 1
+    mass_t: Array  # (m_t,)
+    blur: float  # ``ε``, in the unit of the squared distances
     _last: dict = field(default_factory=dict, repr=False)
 
     def plan(self, C: Array) -> Array:

@@ -20,19 +20,11 @@ from kfmaps.geometry.basis import Basis
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """What a refinement returns.
+    """What a refinement returns."""
 
-    Attributes
-    ----------
-    functional_map : (k_t, k_s)
-    target_to_source : (n_t,) int64
-    history : tuple of int
-        Basis size at each step (ZoomOut), or the number of points that changed (ICP).
-    """
-
-    functional_map: Array
-    target_to_source: np.ndarray
-    history: tuple[int, ...]
+    functional_map: Array  # (k_t, k_s)
+    target_to_source: np.ndarray  # (n_t,)
+    history: tuple[int, ...]  # basis size at each step (ZoomOut), or the number of points that changed (ICP)
 
 
 class Refinement(Protocol):

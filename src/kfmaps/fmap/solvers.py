@@ -22,24 +22,14 @@ Operator = Callable[[Array], Array]
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """What a solver returns.
+    """What a solver returns."""
 
-    Attributes
-    ----------
-    value : array
-        The last iterate whose residual is finite, of the shape of ``b``.
-    status : str
-        ``"converged"``: the residual is at most ``rtol ‖b‖``; ``"step limit"``: the steps ran out first;
-        ``"breakdown"``: a direction without positive curvature or a number that is not finite was met.
-    steps : int
-        Applications of the operator in the iteration.
-    residuals : (steps + 1,) float64
-        ``‖b − A(x)‖`` before the first step and after each, as the recurrence carries it.
-    """
-
-    value: Array
+    value: Array  # the last iterate whose residual is finite, of the shape of ``b``
+    # ``"converged"``: the residual is at most ``rtol ‖b‖``; ``"step limit"``: the steps ran out first; ``"breakdown"``:
+    # a direction without positive curvature or a number that is not finite was met
     status: Status
-    steps: int
+    steps: int  # applications of the operator in the iteration
+    # (steps + 1,): ``‖b − A(x)‖`` before the first step and after each, as the recurrence carries it
     residuals: np.ndarray
 
     __repr__ = short_repr

@@ -91,21 +91,12 @@ def complete_term(term: Any) -> Term:
 
 @dataclass(frozen=True, eq=False)
 class GramTerm:
-    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``, a term of one or two Gram matrices.
+    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``, a term of one or two Gram matrices."""
 
-    Attributes
-    ----------
-    gram_s : (k_s, k_s)
-    cross : (k_t, k_s)
-    total : float
-    gram_t : (k_t, k_t) or None
-        ``None`` stands for zeros.
-    """
-
-    gram_s: Array
-    cross: Array
+    gram_s: Array  # (k_s, k_s)
+    cross: Array  # (k_t, k_s)
     total: float
-    gram_t: Array | None = None
+    gram_t: Array | None = None  # (k_t, k_t): ``None`` stands for zeros
 
     def apply(self, C: Array) -> Array:
         return C @ self.gram_s if self.gram_t is None else self.gram_t @ C + C @ self.gram_s

@@ -19,20 +19,11 @@ from kfmaps.kernels.kernels import KernelLike, describe_kernel, kernel_matrix
 
 @dataclass(frozen=True, eq=False)
 class Nystrom:
-    """A factored kernel approximation; made by :func:`nystrom`.
-
-    Attributes
-    ----------
-    kernel : KernelLike
-    samples : (q, d)
-        The descriptors that the approximation is built from.
-    whitener : (q, r)
-        ``V Λ^(-1/2)`` over the kept eigenvalues, largest first.
-    """
+    """A factored kernel approximation; made by :func:`nystrom`."""
 
     kernel: KernelLike
-    samples: Array
-    whitener: Array
+    samples: Array  # (q, d): the descriptors that the approximation is built from
+    whitener: Array  # (q, r): ``V Λ^(-1/2)`` over the kept eigenvalues, largest first
 
     @property
     def rank(self) -> int:

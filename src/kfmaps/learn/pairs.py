@@ -27,55 +27,28 @@ _MAX_CORRESPONDENCES = 500  # largest number of true correspondences of a pair a
 
 @dataclass(frozen=True, eq=False)
 class PairTruth:
-    """The truth of a pair, at ``m`` of its correspondences.
+    """The truth of a pair, at ``m`` of its correspondences."""
 
-    Attributes
-    ----------
-    functional_map : (k, k) tensor
-        Of the true point map, by least squares.
-    functions_t : (m, k) tensor
-        Basis of the target at these correspondences.
-    distances : (m, n_s) float32 tensor
-        Geodesic, in √area, from the source vertex of each to every point of the source.
-    points_s, points_t : (m,) int64 tensors
-        The points of source and target nearest to these correspondences.
-    """
-
-    functional_map: torch.Tensor
-    functions_t: torch.Tensor
-    distances: torch.Tensor
-    points_s: torch.Tensor
-    points_t: torch.Tensor
+    functional_map: torch.Tensor  # (k, k): of the true point map, by least squares
+    functions_t: torch.Tensor  # (m, k): basis of the target at these correspondences
+    distances: torch.Tensor  # (m, n_s): geodesic, in √area, from the source vertex of each to every point of the source
+    points_s: torch.Tensor  # (m,): the point of the source nearest to each of these correspondences
+    points_t: torch.Tensor  # (m,): the same of the target
 
     __repr__ = short_repr
 
 
 @dataclass(frozen=True, eq=False)
 class TrainingPair:
-    """A pair to learn from, at the points that the fit uses; made by :func:`training_pair`.
-
-    Attributes
-    ----------
-    name : str
-    source, target : Basis
-        Of the map's size, as tensors.
-    descriptors_s, descriptors_t : (n_s, d), (n_t, d) tensors
-        Normalised as the configuration says.
-    samples : (q, d) tensor
-        Of the Nyström approximation, half from each shape.
-    gamma : float
-        The automatic γ of this pair; 1 for a kernel without γ.
-    n_landmarks : int
-    truth : PairTruth or None
-    """
+    """A pair to learn from, at the points that the fit uses; made by :func:`training_pair`."""
 
     name: str
-    source: Basis
+    source: Basis  # of the map's size, as tensors
     target: Basis
-    descriptors_s: torch.Tensor
-    descriptors_t: torch.Tensor
-    samples: torch.Tensor
-    gamma: float
+    descriptors_s: torch.Tensor  # (n_s, d): normalised as the configuration says
+    descriptors_t: torch.Tensor  # (n_t, d)
+    samples: torch.Tensor  # (q, d): of the Nyström approximation, half from each shape
+    gamma: float  # the automatic γ of this pair; 1 for a kernel without γ
     n_landmarks: int
     truth: PairTruth | None
 

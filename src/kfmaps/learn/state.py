@@ -32,20 +32,11 @@ class Epoch:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where learning stands: all that is needed to continue as if it had never stopped.
+    """Where learning stands: all that is needed to continue as if it had never stopped."""
 
-    Attributes
-    ----------
-    parameters, best : dict of str to tensor
-        Of the model: now, and at the epoch that was best on the held-out pairs.
-    optimizer : dict
-        State of Adam.
-    history : tuple of Epoch
-    """
-
-    parameters: dict[str, torch.Tensor]
-    best: dict[str, torch.Tensor]
-    optimizer: dict
+    parameters: dict[str, torch.Tensor]  # of the model, now
+    best: dict[str, torch.Tensor]  # at the epoch that was best on the held-out pairs
+    optimizer: dict  # state of Adam
     history: tuple[Epoch, ...]
 
     __repr__ = short_repr
