@@ -975,7 +975,7 @@ MUTANTS = tuple(
             "test_face_orientation -k some",
         ),
         # drawn blindly with seed 20261124, or reached by no test before
-        ("if last - now <= how.rtol", "if last + now <= how.rtol", "test_formulations -k gains_little"),
+        ("and last - now <= how.rtol", "and last + now <= how.rtol", "test_formulations -k gains_little"),
         ("(2.4 * k + 60)", "(2.4 / k + 60)", "test_eigensolver_loose -k progress"),
         ("pinv(own, rcond=0.05)", "pinv(own, rcond=0.1)", "test_shape_differences -k hardly"),
         ("there, bound = _polar_step(energy, right, here, bound)", "there = None", "test_formulations -k bends_down"),
