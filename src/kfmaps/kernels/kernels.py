@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, is_dataclass, replace
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -224,9 +224,10 @@ def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -
         A number without unit, so that scaling all descriptors does not change the kernel's values.
     """
     if not isinstance(kernel, Gaussian | Laplacian):
-        seen = kernel.transform(samples) if hasattr(kernel, "transform") else samples
+        outer: Any = kernel
+        seen = outer.transform(samples) if hasattr(outer, "transform") else samples
         inside = {name: resolve_kernel(inner, seen, sharpness) for name, inner in inner_kernels(kernel).items()}
-        return replace(kernel, **inside) if inside else kernel
+        return replace(outer, **inside) if inside else kernel
     if kernel.gamma is not None:
         return kernel
     squares = to_numpy(_squared_distances(samples, samples))

@@ -184,7 +184,7 @@ class Model(torch.nn.Module):
             weights = [np.exp(values[f"log_weight_{kind}"]) for kind in kinds]
             kernel = Metric(kernel, np.concatenate(weights).tolist(), landmarks)
         if "metric" in self.parts:
-            whole = block_diag(*(values[f"metric_{kind}"] for kind in kinds))
+            whole = np.asarray(block_diag(*(values[f"metric_{kind}"] for kind in kinds)))
             kernel = Metric(kernel, tuple(map(tuple, whole.tolist())), landmarks)
         terms = zip(self.terms, np.exp(values["log_terms"]).tolist(), strict=True)
         weights = replace(self.config.weights, **dict(terms)) if "terms" in self.parts else self.config.weights
