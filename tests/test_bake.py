@@ -358,7 +358,7 @@ def test_a_picture_cut_short_is_refused(glb: bytes) -> None:
     def edit(tree: dict) -> None:
         tree["bufferViews"][tree["images"][0]["bufferView"]]["byteLength"] += 10**6
 
-    with pytest.raises(InvalidInput, match="picture"):
+    with pytest.raises(InvalidInput, match=r"too few bytes for 10\d{5} of numbers or a picture"):
         parse_gltf(changed(glb, edit), "a.glb")
 
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import io
+import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, Picture
+from kfmaps.io.record import MeshFile, Picture, bytes_of
 
 _SMALLEST, _LARGEST = 1024, 4096
 """Bounds of the longer side of a baked picture, which is that of the source's unless a size is given."""
@@ -35,8 +36,7 @@ def decode_picture(picture: Picture) -> np.ndarray:
     except (OSError, ValueError, SyntaxError) as error:
         raise refuse("the texture", "a PNG or JPEG file", str(error)[:80], "export it again") from error
     values = found / 255.0 if found.dtype.kind == "u" else found.astype(np.float64)
-    if values.ndim == 2:
-        values = values[:, :, None]
+    values = values.reshape(*values.shape[:2], -1)
     return values[:, :, :3] if values.shape[2] >= 3 else np.repeat(values[:, :, :1], 3, axis=2)
 
 
@@ -50,11 +50,7 @@ def encode_png(pixels: np.ndarray) -> Picture:
 
 
 def _sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    """Return the colours ``(q, 3)`` of a picture at ``uv (q, 2)``, linear between texels. It repeats beyond its
-    borders.
-
-    (0, 0) is the lower left corner of the picture, and the centres of texels lie half a texel inside.
-    """
+    """The colours (q, 3) of a picture at ``uv (q, 2)``, linear between the centres of texels; it repeats itself."""
     height, width = pixels.shape[:2]
     x, y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5
     left, top = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
@@ -66,11 +62,10 @@ def _sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
 
 
 def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Find the texels whose centres lie in triangles of a picture.
+    """The texels whose centres lie in triangles of a picture with these ``corners (f, 3, 2)``, texture coordinates.
 
-    ``corners (f, 3, 2)``: texture coordinates; ``height`` and ``width``: of the picture, in texels. Returns ``face
-    (q,)``; ``texel (q,)``: ``row · width + column``, wrapped where triangles leave the picture; ``weights (q, 3)``:
-    barycentric coordinates of the centre.
+    Returns ``face (q,)``; ``texel (q,)``: ``row · width + column``, wrapped where triangles leave the picture;
+    ``weights (q, 3)``: barycentric coordinates of the centre.
     """
     at = np.stack([corners[:, :, 0] * width, (1 - corners[:, :, 1]) * height], axis=2) - 0.5
     low, high = np.ceil(at.min(axis=1)).astype(np.int64), np.floor(at.max(axis=1)).astype(np.int64)
@@ -93,13 +88,13 @@ def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarr
         s, t = s[inside], t[inside]
         texel = (y[inside] % height) * width + x[inside] % width
         found.append((face[inside], texel, np.stack([1 - s - t, s, t], axis=1)))
-    face, texel, weights = (np.concatenate(part) for part in zip(*found, strict=True))
+    face, texel, weights = map(np.concatenate, zip(*found, strict=True))
     return face, texel, weights
 
 
 def can_bake(target: MeshFile) -> bool:
     """Return whether the target has texture coordinates in which every face has room of its own."""
-    if target.uv is None or target.uv_faces is None:
+    if target.uv is None:
         return False
     corners = target.corner_uv
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -144,7 +139,7 @@ def projected_uv(vertices: np.ndarray) -> np.ndarray:
 
 def with_uv(source: MeshFile) -> MeshFile:
     """Return ``source`` with texture coordinates, where it has none those of :func:`projected_uv`."""
-    if source.uv is not None and source.uv_faces is not None:
+    if source.uv is not None:
         return source
     return replace(source, uv=projected_uv(source.mesh.vertices), uv_faces=source.mesh.faces, picture=None)
 
@@ -195,23 +190,18 @@ def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredU
     return TransferredUv(np.concatenate([uv, corners]), uv_faces, torn, edges, images)
 
 
-def bake_texture(
-    source: MeshFile,
-    found: TransferredUv,
-    pixels: np.ndarray,
-    atlas: np.ndarray,
-    picture: np.ndarray,
-    covered: np.ndarray,
-) -> np.ndarray:
-    """Return a picture with the source's colours drawn into it, (h, w, 3) uint8.
+def _bake(
+    source: MeshFile, found: TransferredUv, pixels: np.ndarray, atlas: np.ndarray, picture: np.ndarray, rows: int = 0
+) -> Picture:
+    """A picture with the colours of the source's, ``pixels``, drawn into it.
 
-    ``found``: where the faces lie in the source's picture. Those that are torn are worked out texel by texel: each
-    takes the closest place on the source's surface. ``pixels (..., 3)``: the source's picture, :func:`decode_picture`;
-    ``atlas (f, 3, 2)``: where the faces lie in the new picture; NaN for those that are not drawn. ``picture (h, w,
-    3)``: What is there already, where ``covered (h, w)``; both are changed. Other texels get the colour of the nearest
-    covered one in the end, so that no other colour bleeds in where a viewer mixes neighbours.
+    ``found``: where the faces lie in the source's picture; the texels of torn ones each take the closest place on the
+    source's surface. ``atlas (f, 3, 2)``: where the faces lie in the new picture, NaN for those that are not drawn.
+    ``picture (h, w, 3)``: its first ``rows`` are there already; it is changed. Texels of no face get the colour of the
+    nearest covered one in the end, so that no other colour bleeds in where a viewer mixes neighbours.
     """
-    height, width = covered.shape
+    height, width = picture.shape[:2]
+    covered = np.repeat(np.arange(height) < rows, width)
     drawn = np.flatnonzero(np.isfinite(atlas).all(axis=(1, 2)))
     face, texel, weights = _find_texels(atlas[drawn], height, width)
     if len(face) == 0:
@@ -222,19 +212,19 @@ def bake_texture(
     if len(seam) and found.images is not None:
         where[seam] = _uv_at(with_uv(source), np.einsum("qi,qij->qj", weights[seam], found.images[face[seam]]))[0]
     picture.reshape(-1, 3)[texel] = _sample_picture(pixels, where)
-    covered.reshape(-1)[texel] = True
+    covered[texel] = True
     from scipy.ndimage import distance_transform_edt
 
-    nearest: Any = distance_transform_edt(~covered, return_distances=False, return_indices=True)
-    return np.rint(255 * picture[nearest[0], nearest[1]]).astype(np.uint8)
+    bare = ~covered.reshape(height, width)
+    nearest: Any = distance_transform_edt(bare, return_distances=False, return_indices=True)
+    return encode_png(bytes_of(picture[nearest[0], nearest[1]]))
 
 
 def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
-    """Lay triangles side by side into rows.
+    """Triangles laid side by side into rows of ``width``: their corners (t, 3, 2) from the upper left, and the height.
 
-    ``edges (t, 3)``: lengths of the edges from corner i to the next, in texels. ``width``: of a row, in texels. Where
-    the rows together are higher than this, all triangles are made smaller. Returns ``corners (t, 3, 2)``: in texels,
-    from the upper left; ``height``: of all rows.
+    ``edges (t, 3)``: lengths of the edges from corner i to the next. All are in texels. Where the rows together are
+    higher than wide, all triangles are made smaller.
     """
     first = edges.argmax(axis=1)  # the longest edge lies at the top
     a, b, c = (np.take_along_axis(edges, ((first + i) % 3)[:, None], axis=1)[:, 0] for i in range(3))
@@ -259,15 +249,9 @@ def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
     return place[:, None] + np.take_along_axis(flat, order[:, :, None], axis=1), int(top + row)
 
 
-def _side(pixels: np.ndarray) -> int:
-    """Return the longer side of a baked picture when nobody asks for another."""
-    return int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
-
-
-def _resized(pixels: np.ndarray, size: int | None) -> np.ndarray:
-    """Return a picture whose longer side has ``size`` texels; by default within bounds."""
+def _resized(pixels: np.ndarray, size: int) -> np.ndarray:
+    """A picture whose longer side has ``size`` texels."""
     height, width = pixels.shape[:2]
-    size = size or _side(pixels)
     h, w = (max(1, round(side * size / max(height, width))) for side in (height, width))
     if (h, w) == (height, width):
         return pixels
@@ -280,11 +264,7 @@ def _resized(pixels: np.ndarray, size: int | None) -> np.ndarray:
 
 
 def transfer_texture(
-    source: MeshFile,
-    target: MeshFile,
-    found: TransferredUv,
-    picture: Picture,
-    size: int | None = None,
+    source: MeshFile, target: MeshFile, found: TransferredUv, picture: Picture, size: int | None = None
 ) -> MeshFile:
     """Return the target with texture coordinates and a picture.
 
@@ -293,31 +273,39 @@ def transfer_texture(
     own in rows that are added below the picture.
 
     ``picture``: the source's; ``size``: longer side of the picture in texels; by default the source's, within bounds.
+
+    Warns
+    -----
+    KfmapsWarning
+        Where faces of the target share their place in its own atlas.
     """
-    if can_bake(target):
-        pixels = decode_picture(picture)
-        side = size or _side(pixels)
-        blank = np.zeros((side, side, 3)), np.zeros((side, side), dtype=bool)
-        drawn = bake_texture(source, found, pixels, target.corner_uv, *blank)
-        return replace(target, picture=encode_png(drawn))
-    plain = MeshFile(target.mesh, None, found.uv, found.uv_faces, picture)
-    if not found.torn.any() or found.edges is None:
-        return plain if size is None else replace(plain, picture=encode_png(_resized(decode_picture(picture), size)))
-    pixels, edges = _resized(decode_picture(picture), size), found.edges
+    own_atlas = can_bake(target)
+    if target.uv is not None and not own_atlas:
+        told = "several faces of the target share their place in its texture: it gets the source's coordinates"
+        warnings.warn(told, KfmapsWarning, stacklevel=2)
+    plain, edges = MeshFile(target.mesh, None, found.uv, found.uv_faces, picture), found.edges
+    if not (own_atlas or size or found.torn.any()):
+        return plain
+    pixels = decode_picture(picture)
+    size = size or int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
+    if own_atlas:
+        return replace(target, picture=_bake(source, found, pixels, target.corner_uv, np.zeros((size, size, 3))))
+    pixels = _resized(pixels, size)
+    if edges is None or not found.torn.any():
+        return replace(plain, picture=encode_png(pixels))
     height, width = pixels.shape[:2]
     corners = found.uv[found.uv_faces]
     # Rows below end the repetition of the picture: all faces move into its first copy, and those over its edge are
     # drawn anew as well.
     copy = np.floor(corners.min(axis=1) + 1e-6)
     own = found.torn | ((corners.max(axis=1) - 1e-6 > copy + 1).any(axis=1))
-    found = replace(found, torn=own)
     packed, rows = _pack(edges[own] * width, width)
-    canvas, covered = np.zeros((height + rows, width, 3)), np.zeros((height + rows, width), dtype=bool)
-    canvas[:height], covered[:height] = pixels, True
+    whole = height + rows
     atlas = np.full_like(corners, np.nan)
-    atlas[own] = packed / [width, height + rows]
-    atlas[own, :, 1] = rows / (height + rows) - atlas[own, :, 1]
-    drawn = bake_texture(source, found, pixels, atlas, canvas, covered)
-    moved = (corners - copy[:, None]) * [1, height / (height + rows)] + [0, rows / (height + rows)]
+    atlas[own] = packed / [width, whole]
+    atlas[own, :, 1] = rows / whole - atlas[own, :, 1]
+    drawn = np.concatenate([pixels, np.zeros((rows, width, 3))])
+    made = _bake(source, replace(found, torn=own), pixels, atlas, drawn, height)
+    moved = (corners - copy[:, None]) * [1, height / whole] + [0, rows / whole]
     uv, uv_faces = np.unique(np.where(own[:, None, None], atlas, moved).reshape(-1, 2), axis=0, return_inverse=True)
-    return MeshFile(target.mesh, None, uv, uv_faces.reshape(-1, 3), encode_png(drawn))
+    return replace(plain, uv=uv, uv_faces=uv_faces.reshape(-1, 3), picture=made)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import warnings
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, check, refuse
+from kfmaps._arrays import check, refuse
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output, write_bytes
-from kfmaps.io.bake import TransferredUv, can_bake, encode_png, projected_uv, transfer_texture, transfer_uv
+from kfmaps.io.bake import TransferredUv, encode_png, projected_uv, transfer_texture, transfer_uv
 from kfmaps.io.character import transfer_character
 from kfmaps.io.glb import format_glb
 from kfmaps.io.mapcontent import check_map
@@ -131,9 +130,6 @@ def textured(
         uv = np.concatenate([found.uv, np.zeros((1, 2))])
         uv_faces = np.where(faces[:, None], len(found.uv), found.uv_faces)
         found = replace(found, uv=uv, uv_faces=uv_faces, torn=found.torn & ~faces)
-    if target.uv is not None and not can_bake(target):
-        told = "several faces of the target share their place in its texture: it gets the source's coordinates"
-        warnings.warn(told, KfmapsWarning, stacklevel=3)
     return transfer_texture(source, target, found, picture, size)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import json
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from urllib.parse import unquote
 
 import numpy as np
@@ -34,12 +34,14 @@ _COMPRESSION = ("EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco
 
 
 class _Part(NamedTuple):
-    """A primitive as it is placed by a node: its numbers in the file, and the node's 4 × 4 matrix."""
+    """A primitive as it is placed by a node."""
 
-    mesh: int
-    primitive: int
+    mesh: int  # its numbers in the file
+    number: int
     node: int
-    matrix: np.ndarray
+    matrix: np.ndarray  # the node's, (4, 4)
+    primitive: JsonObject
+    attributes: JsonObject
 
 
 def parse_gltf(data: bytes, name: str) -> MeshFile:
@@ -140,9 +142,8 @@ class _Scene:
     def _check_parts(self) -> None:
         """Refuse what would be read as zeros or skipped in silence."""
         name = self.name
-        for accessor in self.tree.get("accessors", []):
-            if "bufferView" not in accessor and "sparse" not in accessor:
-                raise refuse(name, "plain data", "compressed data", _UNCOMPRESSED)
+        if any("bufferView" not in one and "sparse" not in one for one in self.tree.get("accessors", [])):
+            raise refuse(name, "plain data", "compressed data", _UNCOMPRESSED)
         for part in [p for mesh in self.tree.get("meshes", []) for p in mesh["primitives"]]:
             mode = part.get("mode", _TRIANGLES)
             if mode == _FAN:
@@ -150,11 +151,12 @@ class _Scene:
             if mode not in (_TRIANGLES, _STRIP):
                 continue
             place = self._one("accessors", part["attributes"]["POSITION"])
-            if "sparse" in place or ("indices" in part and "sparse" in self._one("accessors", part["indices"])):
+            corners = self._one("accessors", part["indices"]) if "indices" in part else {"componentType": 5125}
+            if "sparse" in place or "sparse" in corners:
                 raise refuse(name, "plain vertices and triangles", "sparse ones", _UNCOMPRESSED)
             if (place["componentType"], place["type"]) != (_FLOAT, "VEC3"):
                 raise refuse(name, "positions as 32-bit numbers", "quantised ones", "export it unquantised")
-            if "indices" in part and self._one("accessors", part["indices"])["componentType"] not in _UNSIGNED:
+            if corners["componentType"] not in _UNSIGNED:
                 raise refuse(name, "unsigned vertex numbers", "others", REPAIR)
 
     def parts(self) -> list[_Part]:
@@ -176,9 +178,9 @@ class _Scene:
             waiting += [(_count(child), i) for child in node.get("children", [])]
             if "mesh" in node:
                 mesh = _count(node["mesh"])
-                for j, part in enumerate(self.tree["meshes"][mesh]["primitives"]):
-                    if part.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP):
-                        parts.append(_Part(mesh, j, i, matrix))
+                for j, primitive in enumerate(self.tree["meshes"][mesh]["primitives"]):
+                    if primitive.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP):
+                        parts.append(_Part(mesh, j, i, matrix, primitive, primitive["attributes"]))
         return sorted(parts, key=lambda p: p[:3])
 
     def rows(self, number: object) -> np.ndarray:
@@ -203,7 +205,7 @@ class _Scene:
         offset, first = _count(where.get("byteOffset", 0)), _count(view.get("byteOffset", 0))
         buffer, size = self.buffers[_count(view["buffer"])], _count(view["byteLength"])
         if step < row or (count and offset + (count - 1) * step + row > size) or first + size > len(buffer):
-            raise refuse(self.name, _WHOLE, f"too few bytes for {count} rows of numbers", _CUT)
+            raise refuse(self.name, _WHOLE, f"too few bytes for {count * row} of numbers or a picture", _CUT)
         if count == 0:
             return np.zeros((0, width), item)
         return np.ndarray((count, width), item, buffer, first + offset, (step, item.itemsize))
@@ -217,42 +219,37 @@ class _Scene:
 
     def mesh_file(self) -> MeshFile:
         """Return all parts, one after another."""
-        name, parts = self.name, self.parts()
+        parts = self.parts()
         if not parts:
             return MeshFile(Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)))
-        primitives = [self.tree["meshes"][part.mesh]["primitives"][part.primitive] for part in parts]
         joints = self._joints(parts)
-        self._check_size(primitives, joints)
+        self._check_size(parts, joints)
         places, faces, colors, uv, morphs, weights, n = [], [], [], [], [], [], 0
-        for part, primitive in zip(parts, primitives, strict=True):
-            attributes = primitive["attributes"]
-            own = self.numbers(attributes["POSITION"])
-            corners = self._triangles(primitive, len(own), f"{name}: mesh {part.mesh}, part {part.primitive}")
-            follows, matrix = self._skinned(part, attributes, joints, len(own))
-            turn, shift = matrix[..., :3, :3], matrix[..., :3, 3]
-            places.append(
-                own if np.array_equal(matrix, np.eye(4)) else np.einsum("...ij,...j->...i", turn, own) + shift
-            )
+        for part in parts:
+            own = self.numbers(part.attributes["POSITION"])
+            corners = self._triangles(part, len(own))
+            follows, matrix = self._skinned(part, joints, len(own))
+            turn = matrix[..., :3, :3]
+            still = np.array_equal(matrix, np.eye(4))
+            places.append(own if still else _turned(turn, own) + matrix[..., :3, 3])
             flipped = np.linalg.det(turn.reshape(-1, 3, 3).mean(axis=0)) < 0
             faces.append((corners[:, ::-1] if flipped else corners) + n)
             weights.append(follows)
-            morphs.append(
-                {t: np.einsum("...ij,...j->...i", turn, d) for t, d in self._morphs(part, primitive, len(own))}
-            )
+            morphs.append({title: _turned(turn, moved) for title, moved in self._morphs(part, len(own))})
             for title, found, columns in (("COLOR_0", colors, 3), ("TEXCOORD_0", uv, 2)):
-                if title in attributes:
-                    found.append(self._attribute(attributes, title, len(own), columns))
+                if title in part.attributes:
+                    found.append(self._attribute(part.attributes, title, len(own), columns))
             n += len(own)
         mesh = Mesh(np.vstack(places), np.vstack(faces))
         tints = np.clip(np.vstack(colors), 0.0, 1.0) if len(colors) == len(parts) else None
         titles = dict.fromkeys(title for moved in morphs for title in moved)
-        still = [np.zeros_like(x) for x in places]
-        moves = {t: np.vstack([moved.get(t, zero) for moved, zero in zip(morphs, still, strict=True)]) for t in titles}
+        both = list(zip(morphs, places, strict=True))
+        moves = {t: np.vstack([moved.get(t, np.zeros_like(x)) for moved, x in both]) for t in titles}
         skin = self._skin(joints, np.vstack(weights)) if joints else None
         if len(uv) < len(parts):
             return MeshFile(mesh, tints, morphs=moves, skin=skin)
         joined = np.vstack(uv) * [1, -1] + [0, 1]  # glTF counts from the top of the picture
-        return MeshFile(mesh, tints, joined, mesh.faces, self._picture(primitives), moves, skin)
+        return MeshFile(mesh, tints, joined, mesh.faces, self._picture(parts), moves, skin)
 
     def _attribute(self, attributes: JsonObject, title: str, n: int, columns: int) -> np.ndarray:
         """The first ``columns`` numbers of each of ``n`` vertices."""
@@ -262,9 +259,9 @@ class _Scene:
             raise refuse(f"{self.name}: {title}", f"{columns} numbers for each vertex", f"{count} rows", REPAIR)
         return values[:, :columns]
 
-    def _morphs(self, part: _Part, primitive: JsonObject, n: int) -> list[tuple[str, np.ndarray]]:
+    def _morphs(self, part: _Part, n: int) -> list[tuple[str, np.ndarray]]:
         """The name and the displacements (n, 3) of each morph target."""
-        targets = primitive.get("targets", [])
+        targets = part.primitive.get("targets", [])
         told = self.tree["meshes"][part.mesh].get("extras", {}).get("targetNames", [])
         names = told if len(told) == len(targets) else [f"morph {i}" for i in range(len(targets))]
         moved = [self._attribute(t, "POSITION", n, 3) if "POSITION" in t else np.zeros((n, 3)) for t in targets]
@@ -278,13 +275,13 @@ class _Scene:
             raise refuse(self.name, "joints that are nodes of the scene", "others", REPAIR)
         return joints
 
-    def _skinned(self, part: _Part, attributes: JsonObject, joints: list[int], n: int) -> tuple[np.ndarray, np.ndarray]:
+    def _skinned(self, part: _Part, joints: list[int], n: int) -> tuple[np.ndarray, np.ndarray]:
         """How much each vertex of a part follows each of ``joints``, (n, j), and its matrix, (4, 4) or (n, 4, 4).
 
         A vertex that follows joints lies where they carry it, wherever the node of the part is.
         """
         weights, skin = np.zeros((n, len(joints))), self.tree["nodes"][part.node].get("skin")
-        if skin is None or "JOINTS_0" not in attributes:
+        if skin is None or "JOINTS_0" not in part.attributes:
             return weights, part.matrix
         own = [_count(j) for j in self._one("skins", skin)["joints"]]
         bind = self._one("skins", skin).get("inverseBindMatrices")
@@ -292,10 +289,9 @@ class _Scene:
         inverse = np.broadcast_to(inverse, (len(own), 16)).reshape(-1, 4, 4).transpose(0, 2, 1)
         carried = np.stack([self.matrices[j] @ m for j, m in zip(own, inverse, strict=True)])
         follows = np.zeros((n, len(own)))
-        sets = [title[7:] for title in attributes if title.startswith("JOINTS_")]
-        for i in sets:
-            at = self._attribute(attributes, f"JOINTS_{i}", n, 4).astype(np.int64)
-            share = self._attribute(attributes, f"WEIGHTS_{i}", n, 4)
+        for title in [title for title in part.attributes if title.startswith("JOINTS_")]:
+            at = self._attribute(part.attributes, title, n, 4).astype(np.int64)
+            share = self._attribute(part.attributes, title.replace("JOINTS", "WEIGHTS"), n, 4)
             np.add.at(follows, (np.arange(n)[:, None], at), share)
         total = follows.sum(axis=1, keepdims=True)
         follows = np.divide(follows, total, out=np.zeros_like(follows), where=total > 0)
@@ -316,28 +312,30 @@ class _Scene:
         names = tuple(str(self.tree["nodes"][j].get("name", f"joint {i}")) for i, j in enumerate(joints))
         return Skin(names, np.array(parents), np.stack([self.matrices[j] for j in joints]), weights)
 
-    def _check_size(self, primitives: list[JsonObject], joints: list[int]) -> None:
+    def _check_size(self, parts: list[_Part], joints: list[int]) -> None:
         """Refuse what nodes repeat again and again, and what does not fit into memory, before any of it is read."""
-        used = [a for p in primitives for a in (p["attributes"]["POSITION"], p.get("indices")) if a is not None]
+        used = [p.attributes["POSITION"] for p in parts]
+        used += [p.primitive["indices"] for p in parts if "indices" in p.primitive]
         sizes = {a: len(self.rows(a)) for a in set(used)}
         rows = sum(sizes[a] for a in used)
         repeated = rows - sum(sizes.values())
         if repeated > _MOST_REPEATED:
             wanted = f"at most {_MOST_REPEATED:,} vertices and corners that nodes repeat"
-            got = f"{repeated:,}, with {len(primitives):,} placed parts"
+            got = f"{repeated:,}, with {len(parts):,} placed parts"
             raise refuse(self.name, wanted, got, "export each shape once")
-        what = f"{rows:,} vertices and corners of {len(primitives):,} parts"
-        moved = sum(_count(self._one("accessors", a)["count"]) for p in primitives for a in _moved(p))
-        follow = len(joints) * sum(sizes[p["attributes"]["POSITION"]] for p in primitives)
+        what = f"{rows:,} vertices and corners of {len(parts):,} parts"
+        targets = [t["POSITION"] for p in parts for t in p.primitive.get("targets", []) if "POSITION" in t]
+        moved = sum(_count(self._one("accessors", a)["count"]) for a in targets)
+        follow = len(joints) * sum(sizes[p.attributes["POSITION"]] for p in parts)
         check_memory(_BYTES_PER_ROW * rows + 48 * moved + 24 * follow, self.name, what, REPAIR)
 
-    def _picture(self, primitives: list[JsonObject]) -> Picture | None:
-        """The colour texture that all ``primitives`` share; ``None`` when there is no such one, or of another kind.
+    def _picture(self, parts: list[_Part]) -> Picture | None:
+        """The colour texture that all ``parts`` share; ``None`` when there is no such one, or of another kind.
 
         A picture beside the file that is not there is none either: who wants the shape alone need not have it.
         """
         images = set()
-        for primitive in primitives:
+        for primitive in [part.primitive for part in parts]:
             material = self._one("materials", primitive["material"]) if "material" in primitive else {}
             texture = material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
             plain = texture is not None and texture.get("texCoord", 0) == 0 and not texture.get("extensions")
@@ -350,15 +348,12 @@ class _Scene:
         if uri is not None:
             there = uri.startswith("data:") or _beside(uri, self.name).is_file()
             return picture_in(self._content(uri)) if there else None
-        view = self._one("bufferViews", image["bufferView"])
-        buffer, first = self.buffers[_count(view["buffer"])], _count(view.get("byteOffset", 0))
-        size = _count(view["byteLength"])
-        if first + size > len(buffer):
-            raise refuse(self.name, f"a picture of {size} bytes", f"{max(len(buffer) - first, 0)}", _CUT)
-        return picture_in(buffer[first : first + size])
+        size = self._one("bufferViews", image["bufferView"])["byteLength"]
+        return picture_in(self._block(image, np.dtype("u1"), 1, size).tobytes())
 
-    def _triangles(self, primitive: JsonObject, n: int, name: str) -> np.ndarray:
-        """The triangles (t, 3) of a primitive with ``n`` vertices, 0-based."""
+    def _triangles(self, part: _Part, n: int) -> np.ndarray:
+        """The triangles (t, 3) of a part with ``n`` vertices, 0-based."""
+        primitive, name = part.primitive, f"{self.name}: mesh {part.mesh}, part {part.number}"
         indexed = "indices" in primitive
         corners = self.rows(primitive["indices"])[:, 0].astype(np.int64) if indexed else np.arange(n)
         if len(corners) and corners.max() >= n:
@@ -373,20 +368,19 @@ class _Scene:
         return corners.reshape(-1, 3)
 
 
-def _moved(primitive: JsonObject) -> list[Any]:
-    """The accessors of the morph targets of a primitive."""
-    return [target["POSITION"] for target in primitive.get("targets", []) if "POSITION" in target]
+def _turned(turn: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Points (n, 3) after a linear map, (3, 3) or one for each, (n, 3, 3)."""
+    return np.einsum("...ij,...j->...i", turn, places)
 
 
 def _matrix(node: JsonObject) -> np.ndarray:
     """The 4 × 4 matrix of a node, from its matrix or its translation, rotation (x, y, z, w) and scale."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
-    result = np.eye(4)
+    linear = np.eye(3)
     if "rotation" in node:
-        result[:3, :3] = Rotation.from_quat(np.array(node["rotation"], dtype=np.float64)).as_matrix()
-    if "scale" in node:
-        result[:3, :3] *= np.array(node["scale"], dtype=np.float64).reshape(3)
-    if "translation" in node:
-        result[:3, 3] = np.array(node["translation"], dtype=np.float64).reshape(3)
+        linear = Rotation.from_quat(np.array(node["rotation"], dtype=np.float64)).as_matrix()
+    result = np.eye(4)
+    result[:3, :3] = linear * np.array(node.get("scale", [1, 1, 1]), dtype=np.float64).reshape(3)
+    result[:3, 3] = np.array(node.get("translation", [0, 0, 0]), dtype=np.float64).reshape(3)
     return result
