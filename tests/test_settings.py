@@ -23,9 +23,8 @@ from kfmaps.fmap.solvers import CG, Direct
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.kernels.transformed import Metric, Network, Scaled
-from kfmaps.settings.merge import PRESETS, preset, read_settings, with_assignments
+from kfmaps.settings.merge import PRESETS, preset, read_settings, settings_text, with_assignments
 from kfmaps.settings.options import OPTIONS, Chosen, with_settings
-from kfmaps.settings.toml import settings_text
 
 FAR = Config.paper()
 """A base that differs from the recommended settings in most things."""
