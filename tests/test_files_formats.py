@@ -322,7 +322,7 @@ def test_a_vertex_without_a_position_is_put_between_its_neighbours(tmp_path: Pat
     places[7] = np.nan
     write = tmp_path / "scan.ply"
     write.write_bytes(format_ply(MeshFile(Mesh(places, mesh.faces))))
-    with pytest.warns(KfmapsWarning, match=r"1 vertex has no position \(NaN\)"):
+    with pytest.warns(KfmapsWarning, match=r"vertices without a position \(NaN\): 1; put between neighbours"):
         read = read_mesh(write)
     around = np.setdiff1d(mesh.faces[(mesh.faces == 7).any(axis=1)], [7])
     np.testing.assert_allclose(read.vertices[7], mesh.vertices[around].mean(axis=0))

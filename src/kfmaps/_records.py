@@ -12,6 +12,7 @@ from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 from functools import lru_cache
 from inspect import cleandoc
 from numbers import Integral, Real
+from operator import ge, gt, le, lt
 from textwrap import shorten
 from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, cast, dataclass_transform, get_args, get_origin, get_type_hints
@@ -119,12 +120,8 @@ class Setting:
         return any(_is_a(value, hint) for hint in self.types)
 
     def _inside(self, value: float) -> bool:
-        return (
-            (self.above is None or value > self.above)
-            and (self.low is None or value >= self.low)
-            and (self.high is None or value <= self.high)
-            and (self.below is None or value < self.below)
-        )
+        bounds = ((self.above, gt), (self.low, ge), (self.high, le), (self.below, lt))
+        return all(bound is None or holds(value, bound) for bound, holds in bounds)
 
 
 def _is_a(value: object, hint: object) -> bool:
@@ -288,14 +285,13 @@ def _table(value: object, label: str) -> JsonObject:
     return value
 
 
-def _tuple(value: object, label: str, depth: int = 0) -> tuple[object, ...]:
+def _tuple(value: object, label: str, depth: int = 0) -> Any:
     """Nested lists of numbers as tuples; how many there must be is for their record to say."""
-    if not isinstance(value, list | tuple) or depth > 3:
-        raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
-    items = [_tuple(item, label, depth + 1) if isinstance(item, list | tuple) else item for item in value]
-    if any(not isinstance(item, tuple) and type(item) not in (int, float) for item in items):
-        raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
-    return tuple(items)
+    if isinstance(value, list | tuple) and depth < 4:
+        return tuple(_tuple(item, label, depth + 1) for item in value)
+    if depth and type(value) in (int, float):
+        return value
+    raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
 
 
 def short_repr(self: object) -> str:

@@ -31,9 +31,7 @@ def remove_unfinished(folder: Path, older: float = 0.0) -> None:
 
 
 def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Path | None] = ()) -> Path:
-    """Return the file that writing to ``path`` would make, links followed, when it may be written.
-
-    Worth calling before long work, so that a name that cannot be written is found out early.
+    """Return the file that writing to ``path`` would make, links followed; call it before long work.
 
     Parameters
     ----------
@@ -41,7 +39,7 @@ def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Pa
     force : bool
         Whether an existing file may be replaced.
     reads : iterable of path or None
-        Files that the work reads, none of which may be replaced by what comes of it.
+        Files that the work reads, none of which may be replaced.
 
     Raises
     ------
@@ -49,7 +47,7 @@ def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Pa
         When its folder is missing or may not be written, it is a folder or device, it is one of ``reads``, or it
         exists and ``force`` is not given.
     """
-    final = Path(path)
+    final, name = Path(path), f"output {path}"
     try:
         final = Path(os.path.realpath(path))
         # Not of the real path: that of a pipe that somebody else holds, such as /dev/stdout, is no name of a file.
@@ -58,19 +56,19 @@ def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Pa
         kind = None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         got = getattr(error, "strerror", None) or str(error)
-        raise refuse(f"output {path}", "a name that can be written", got, "choose another") from error
+        raise refuse(name, "a name that can be written", got, "choose another") from error
     if kind is None and not final.parent.is_dir():
-        raise refuse(f"output {path}", "an existing folder", f"no folder {final.parent}", "make it first")
+        raise refuse(name, "an existing folder", f"no folder {final.parent}", "make it first")
     if not os.access(final.parent, os.W_OK):
-        raise refuse(f"output {path}", "a folder to write in", f"no right to write in {final.parent}", "choose another")
+        raise refuse(name, "a folder to write in", f"no right to write in {final.parent}", "choose another")
     if kind not in (None, stat.S_IFREG) or os.path.abspath(path).startswith(_STREAMS):
         got = "a folder" if kind == stat.S_IFDIR else "a device or pipe"
-        raise refuse(f"output {path}", "the name of a file", got, "name a file to write")
+        raise refuse(name, "the name of a file", got, "name a file to write")
     for other in reads:
         if kind is not None and other is not None and os.path.exists(other) and os.path.samefile(path, other):
-            raise refuse(f"output {path}", "another file than those that are read", f"{other}", "name another")
+            raise refuse(name, "another file than those that are read", f"{other}", "name another")
     if kind is not None and not force:
-        raise refuse(f"output {path}", "a new file", "an existing one", "give --force to replace it")
+        raise refuse(name, "a new file", "an existing one", "give --force to replace it")
     return final
 
 
@@ -78,27 +76,14 @@ def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Pa
 def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
     """Open a temporary file to write, which takes the name ``path`` when the block ends well.
 
-    When the block raises, the temporary file is removed and ``path`` is as it was. The temporary file has
-    the suffix of ``path`` and lies in the same folder, because a rename is atomic only within a file system.
-
-    Parameters
-    ----------
-    path : str or Path
-    force : bool
-        Whether an existing file may be replaced; it keeps its permissions.
-
-    Raises
-    ------
-    InvalidInput
-        As :func:`check_output`, and when the folder cannot be written.
+    When the block raises, the temporary file is removed and ``path`` is as it was. The temporary file has the suffix of
+    ``path`` and lies in the same folder, because a rename is atomic only within a file system. A file that is replaced
+    keeps its permissions. ``force`` and errors are as of :func:`check_output`.
     """
     final = check_output(path, force)
     temporary = final.with_name(f"{_UNFINISHED}{secrets.token_hex(6)}{final.suffix}")
     try:
-        try:
-            os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-        except OSError as error:
-            raise refuse(f"output {path}", "a folder to write in", str(error.strerror), "choose another") from error
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
         yield temporary
         check_output(path, force)  # someone else may have made it meanwhile
         if final.exists():
@@ -107,7 +92,7 @@ def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
             os.fsync(file.fileno())  # otherwise a power cut after the rename could leave an empty file
         os.replace(temporary, final)
     except OSError as error:
-        # A full disk says only that it is full, or names a file that nobody has heard of.
+        # A full disk says only that it is full, and other errors name a file that nobody has heard of.
         if error.filename is None or os.fspath(error.filename) == str(temporary):
             raise OSError(error.errno or 0, error.strerror or str(error), str(path)) from error
         raise

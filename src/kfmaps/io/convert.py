@@ -49,8 +49,6 @@ TruthLike = ArrayLike | tuple[ArrayLike, ArrayLike]
 """What a truth may be: the source vertex of each target vertex, or corresponding vertices of both."""
 
 _SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
-POLYGONS = ("triangle", "quad", "polygon")
-"""Kinds of meshio's cells that are faces."""
 
 
 def is_file(value: object) -> TypeGuard[FileName]:
@@ -79,31 +77,29 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
     if is_file(shape):
         return read_mesh(Path(shape))
     try:
-        found = _parts(shape)
-        if found is not None:
-            vertices, faces = found
-            return Mesh(np.array(vertices, dtype=np.float64), faces)
+        vertices, faces = _parts(shape)
+        return Mesh(np.array(vertices, dtype=np.float64), faces)
     except InvalidInput as error:
         raise InvalidInput(f"{name}: {error}") from error
+    except AttributeError as error:
+        raise refuse(name, _SHAPES, type(shape).__name__, "give kfmaps.Mesh(vertices, faces)") from error
     except (TypeError, ValueError) as error:
         raise refuse(name, _SHAPES, f"{type(shape).__name__} ({error})", "check its arrays") from error
-    raise refuse(name, _SHAPES, type(shape).__name__, "give kfmaps.Mesh(vertices, faces)")
 
 
-def _parts(shape: Any) -> tuple[ArrayLike, np.ndarray] | None:
-    """Vertices and triangles of what is no Mesh and no file; ``None`` where it has none that are known."""
+def _parts(shape: Any) -> tuple[ArrayLike, np.ndarray]:
+    """Vertices and triangles of what is no Mesh and no file."""
     if isinstance(shape, np.ndarray):
-        return (shape, _triangles(())) if shape.ndim == 2 else None
+        return shape, _triangles(())
     if isinstance(shape, tuple | list):
-        return (shape[0], _triangles(shape[1])) if len(shape) == 2 else None
+        vertices, faces = shape
+        return vertices, _triangles(faces)
     if hasattr(shape, "vertices"):
         faces = getattr(shape, "faces", None)
         return shape.vertices, _triangles(getattr(shape, "triangles", ()) if faces is None else faces)
-    if hasattr(shape, "points"):
-        if hasattr(shape, "cells_dict"):
-            return shape.points, _meshio(shape.cells)
-        return shape.points, _triangles(getattr(shape, "faces", ()))
-    return None
+    if hasattr(shape, "cells_dict"):
+        return shape.points, _meshio(shape.cells)
+    return shape.points, _triangles(getattr(shape, "faces", ()))
 
 
 def _triangles(faces: Any) -> np.ndarray:
@@ -129,7 +125,7 @@ def _meshio(cells: Any) -> np.ndarray:
     blocks = cells.items() if isinstance(cells, Mapping) else [(block.type, block.data) for block in cells]
     parts = []
     for kind, data in blocks:
-        if kind in POLYGONS:
+        if kind in ("triangle", "quad", "polygon"):
             parts.append(_triangles(np.asarray(data)))
         elif kind not in ("vertex", "line"):
             raise refuse("cells", "triangles or polygons", f"'{kind}'", "extract the surface first")

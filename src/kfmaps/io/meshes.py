@@ -25,10 +25,7 @@ from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
 def _parse_xyz(data: bytes, name: str) -> MeshFile:
-    """Read a point cloud: ``x y z`` a line.
-
-    Further columns (a normal, a colour) are left out; all lines have the same number of them.
-    """
+    """A point cloud: ``x y z`` a line; further columns (a normal, a colour), alike in all lines, are left out."""
     rows = parse_rows(clean_text(data, name), name)
     columns = as_table(rows, (3, 4, 6, 7, 9, 10), name, "x y z, the same number of columns in every line")
     return MeshFile(Mesh(columns[:, :3], np.zeros((0, 3), dtype=np.int64)))
@@ -69,8 +66,8 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     Raises
     ------
     InvalidInput
-        On a file that is missing, empty, cut short, of an unknown extension or not what its extension says;
-        on NaN, infinite or absurdly large (beyond 1e70) coordinates; and as :func:`check_mesh`.
+        On a file that is missing, empty, cut short, of an unknown extension or not what its extension says; on NaN,
+        infinite or absurdly large (beyond 1e70) coordinates; and as :func:`check_mesh`.
 
     Warns
     -----
@@ -95,13 +92,8 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
         found = reader(read_bytes(path), name)
     found = _place_unplaced(found, name)
     places, weights = found.mesh.vertices, None if found.skin is None else found.skin.weights
-    for what, values in (
-        ("vertices", places),
-        ("colors", found.colors),
-        ("texture", found.uv),
-        *found.morphs.items(),
-        ("weights", weights),
-    ):
+    arrays = {"vertices": places, "colors": found.colors, "texture": found.uv, "weights": weights, **found.morphs}
+    for what, values in arrays.items():
         if values is not None:
             check(values, f"{name}: {what}", remedy="repair or re-export the file")
     size = np.abs(places).max(initial=0.0)
@@ -125,14 +117,8 @@ def _place_unplaced(found: MeshFile, name: str) -> MeshFile:
         if len(around) == 0:
             return found
         vertices[v] = found.mesh.vertices[around].mean(axis=0)
-    count = int(bad.sum())
-    which = "1 vertex has" if count == 1 else f"{count} vertices have"
-    where = "its neighbours" if count == 1 else "their neighbours"
-    warnings.warn(
-        f"{shown(name)}: {which} no position (NaN); put between {where}, the numbering stays",
-        KfmapsWarning,
-        stacklevel=4,
-    )
+    told = f"vertices without a position (NaN): {bad.sum()}; put between neighbours, the numbering stays"
+    warnings.warn(f"{shown(name)}: {told}", KfmapsWarning, stacklevel=4)
     return replace(found, mesh=Mesh(vertices, faces))
 
 

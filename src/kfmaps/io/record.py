@@ -85,16 +85,14 @@ class MeshFile:
 
 
 def fan(sizes: np.ndarray) -> np.ndarray:
-    """Return the triangles that polygons fall into, each polygon a fan around its first corner.
+    """Return the triangles that polygons fall into, each polygon a fan around its first corner, in their order.
 
     ``sizes (p,)``: how many corners each polygon has, at least 3. Returns (t, 3): positions in the list of all corners,
-    one polygon after another, in the order of the polygons.
+    one polygon after another.
     """
-    first = np.cumsum(sizes) - sizes
-    triangles = sizes - 2
-    start = np.repeat(first, triangles)
-    step = np.arange(len(start)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
-    return np.stack([start, start + step + 1, start + step + 2], axis=1)
+    start = np.cumsum(sizes) - sizes
+    second = gathered(start + 1, sizes - 2)
+    return np.stack([np.repeat(start, sizes - 2), second, second + 1], axis=1)
 
 
 def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -128,15 +126,12 @@ def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
     column (alpha) is left out.
     """
     colors = np.asarray(colors)
-    wanted, remedy = f"({n}, 3) numbers", "give red, green and blue for each vertex"
-    if colors.shape not in ((n, 3), (n, 4)):
-        raise refuse("colors", wanted, f"shape {colors.shape}", remedy)
+    colors = colors[:, :3] if colors.shape[1:] == (4,) else colors
+    check(colors, "colors", shape=(n, 3), remedy="give red, green and blue for each vertex")
     high = 255 if np.issubdtype(colors.dtype, np.integer) else 1
-    fractions = check(colors[:, :3].astype(np.float64), "colors", remedy=remedy) / high
-    if len(fractions) and not (fractions.min() >= 0 and fractions.max() <= 1):
-        got = f"{colors.min()} to {colors.max()}"
-        raise refuse("colors", f"numbers from 0 to {high}", got, "scale them")
-    return fractions
+    if n and not (colors.min() >= 0 and colors.max() <= high):
+        raise refuse("colors", f"numbers from 0 to {high}", f"{colors.min()} to {colors.max()}", "scale them")
+    return colors.astype(np.float64) / high
 
 
 def bytes_of(colors: np.ndarray) -> np.ndarray:

@@ -36,7 +36,7 @@ def parse_vtk(data: bytes, name: str) -> MeshFile:
 
 
 class _Legacy:
-    """A place in a legacy file."""
+    """The content of a legacy file, and the place ``at`` that it is read up to."""
 
     def __init__(self, data: bytes, name: str, at: int, binary: bool) -> None:
         self.data, self.name, self.at, self.binary = data, name, at, binary
@@ -44,13 +44,17 @@ class _Legacy:
     def line(self) -> list[str]:
         """Return the words of the next line that has any; none at the end of the file."""
         while self.at < len(self.data):
-            end = self.data.find(b"\n", self.at)
-            end = len(self.data) if end < 0 else end
-            words = self.data[self.at : end].decode("latin-1").split()
-            self.at = end + 1
+            words = self._up_to(b"\n").decode("latin-1").split()
             if words:
                 return words
         return []
+
+    def _up_to(self, mark: bytes) -> bytes:
+        """The bytes before the next ``mark`` or the end, which are passed with it."""
+        end = self.data.find(mark, self.at)
+        start, end = self.at, len(self.data) if end < 0 else end
+        self.at = end + len(mark)
+        return self.data[start:end]
 
     def numbers(self, count: int, kind: str) -> np.ndarray:
         """Return the next ``count`` numbers."""
@@ -62,19 +66,16 @@ class _Legacy:
         words = list(islice(_WORD.finditer(self.data, self.at), count))
         if len(words) < count:
             raise refuse(self.name, f"{count} numbers", f"{len(words)}", REPAIR)
-        if count:
-            self.at = words[-1].end()
+        self.at = words[-1].end() if words else self.at
         return np.array([word[0] for word in words], dtype="S").astype(np.float64)
 
     def cells(self, words: list[str]) -> tuple[np.ndarray, np.ndarray]:
         """Return the corners of cells and how many each has; version 5 has their ends instead."""
-        count, size = int(words[1]), int(words[2])
-        start = self.at
+        count, size, start = int(words[1]), int(words[2]), self.at
         following = self.line()
-        if following and following[0] == "OFFSETS":
+        if following[:1] == ["OFFSETS"]:
             ends = self.numbers(count, following[1]).astype(np.int64)
-            corners = self.numbers(size, self.line()[1]).astype(np.int64)
-            return corners, np.diff(ends)
+            return self.numbers(size, self.line()[1]).astype(np.int64), np.diff(ends)
         self.at = start
         return split_polygons(self.numbers(size, "int"))
 
@@ -82,14 +83,14 @@ class _Legacy:
         """Pass over ``count`` arrays that say something of the whole."""
         for _ in range(count):
             _, width, length, kind = self.line()
-            if kind == "string":
-                for _ in range(int(width) * int(length)):
-                    if self.binary:
-                        self.at += 1 + (self.data[self.at] & 63)
-                    else:
-                        self.line()
-            else:
-                self.numbers(int(width) * int(length), kind)
+            size = int(width) * int(length)
+            if kind != "string":
+                self.numbers(size, kind)
+            for _ in range(size if kind == "string" else 0):
+                if self.binary:
+                    self.at += 1 + (self.data[self.at] & 63)
+                else:
+                    self.line()
 
     def read(self) -> MeshFile:
         points, corners, sizes = None, np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
@@ -108,8 +109,7 @@ class _Legacy:
             elif key == "TRIANGLE_STRIPS":
                 raise refuse(self.name, "polygons", "triangle strips", REMEDY)
             elif key == "METADATA":
-                end = self.data.find(b"\n\n", self.at)
-                self.at = len(self.data) if end < 0 else end
+                self._up_to(b"\n\n")
             elif key in ("POINT_DATA", "CELL_DATA"):
                 break
         if points is None:
@@ -171,25 +171,24 @@ def _unpacked(block: bytes, size: np.dtype, raw: bool, packed: bool, name: str) 
     """The bytes of an array: a head of ``size`` numbers and the content, in base64 unless ``raw``."""
     width = size.itemsize
 
-    def take(first: int, count: int) -> bytes:
-        """Return ``count`` bytes of what begins at ``first`` and is encoded by itself."""
-        if raw:
-            return block[first : first + count]
-        return base64.b64decode(block[first : first + 4 * -(-count // 3)])[:count]
+    def take(first: int, count: int) -> tuple[bytes, int]:
+        """``count`` bytes of what begins at ``first`` and is encoded by itself, and where that ends."""
+        end = first + (count if raw else 4 * -(-count // 3))
+        return (block[first:end] if raw else base64.b64decode(block[first:end])[:count]), end
 
-    def length(count: int) -> int:
-        return count if raw else 4 * -(-count // 3)
+    def numbers(count: int) -> tuple[list[int], int]:
+        content, end = take(0, count * width)
+        return np.frombuffer(content, size).astype(np.int64).tolist(), end
 
     if not packed:
-        count = int(np.frombuffer(take(0, width), size)[0])
-        return take(0, width + count)[width:]
-    n_blocks, full, last = np.frombuffer(take(0, 3 * width), size).astype(np.int64).tolist()
-    head = np.frombuffer(take(0, (3 + n_blocks) * width), size).astype(np.int64)
-    content = take(length((3 + n_blocks) * width), int(head[3:].sum()))
+        return take(0, width + numbers(1)[0][0])[0][width:]
+    n_blocks, full, last = numbers(3)[0]
+    head, end = numbers(3 + n_blocks)
+    content, _ = take(end, sum(head[3:]))
     if full > 1000 * len(block) or n_blocks > len(block):
         raise refuse(name, "blocks of a size that fits the file", f"{full} bytes each", REPAIR)
     parts, at = [], 0
-    for i, count in enumerate(head[3:].tolist()):
+    for i, count in enumerate(head[3:]):
         most = last if last and i == n_blocks - 1 else full
         parts.append(zlib.decompressobj().decompress(content[at : at + count], most))
         at += count
@@ -197,10 +196,6 @@ def _unpacked(block: bytes, size: np.dtype, raw: bool, packed: bool, name: str) 
 
 
 def _mesh(points: np.ndarray, corners: np.ndarray, sizes: np.ndarray, name: str) -> MeshFile:
-    vertices = np.array(points, dtype=np.float64).reshape(-1, 3)
     if len(sizes) and (sizes.min() < 3 or sizes.sum() != len(corners)):
         raise refuse(name, "polygons of three corners or more", f"{sizes.min()} corners", REPAIR)
-    if len(corners) and (corners.min() < 0 or corners.max() >= len(vertices)):
-        bad = int(corners[(corners < 0) | (corners >= len(vertices))][0])
-        raise refuse(name, f"vertices from 0 to {len(vertices) - 1}", f"{bad}", REPAIR)
-    return MeshFile(Mesh(vertices, corners[fan(sizes)] if len(sizes) else np.zeros((0, 3), dtype=np.int64)))
+    return MeshFile(Mesh(np.array(points, dtype=np.float64).reshape(-1, 3), corners[fan(sizes)]))
