@@ -125,5 +125,5 @@ def test_a_folder_without_permission(tmp_path: Path, monkeypatch: pytest.MonkeyP
         raise PermissionError(13, "Permission denied")
 
     monkeypatch.setattr(os, "open", denied)
-    with pytest.raises(PermissionError, match="Permission denied.*a.txt"), atomic_output(tmp_path / "a.txt"):
+    with pytest.raises(PermissionError, match=r"Permission denied.*a\.txt"), atomic_output(tmp_path / "a.txt"):
         raise AssertionError("the block must not be entered")

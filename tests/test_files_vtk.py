@@ -118,7 +118,7 @@ HEAD = b"# vtk DataFile Version 3.0\nv\nASCII\nDATASET "
         ("a.vtk", HEAD + b"UNSTRUCTURED_GRID\n", "got UNSTRUCTURED_GRID. Save the surface as PLY"),
         ("a.vtk", HEAD + b"POLYDATA\nPOINTS 2 float\n0 0 0 1\n", "6 numbers"),
         ("a.vtk", HEAD + b"POLYDATA\nPOINTS 1 float\n0 0 0\nTRIANGLE_STRIPS 1 2\n", "triangle strips"),
-        ("a.vtk", HEAD + b"POLYDATA\nPOINTS 1 float\n0 0 0\nPOLYGONS 1 4\n3 0 0 7\n", "vertex numbers from 0 to 0, got 7"),
+        ("a.vtk", HEAD + b"POLYDATA\nPOINTS 1 float\n0 0 0\nPOLYGONS 1 4\n3 0 0 7\n", "numbers from 0 to 0, got 7"),
         ("a.vtk", HEAD + b"POLYDATA\n", "points"),
         ("a.vtk", legacy(True, True)[:400], "complete .vtk"),
         ("a.vtp", b'<VTKFile type="UnstructuredGrid"/>', "got UnstructuredGrid"),

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
+from kfmaps._progress import Progress
 from kfmaps.cli.evaluation import Truth, check_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
@@ -37,8 +37,6 @@ from kfmaps.shape import prepare as prepared
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Reporter = Callable[[str, float], None]
-
 
 def match(
     source: ShapeLike | Shape,
@@ -48,7 +46,7 @@ def match(
     landmarks: LandmarksLike | None = None,
     descriptors: tuple[ArrayLike, ArrayLike] | None = None,
     rng: int | np.random.Generator | None = 0,
-    progress: bool | Reporter | None = None,
+    progress: bool | Progress | None = None,
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
@@ -99,7 +97,7 @@ def match(
 
 
 def prepare(
-    shape: ShapeLike, config: Config | None = None, *, name: str | None = None, progress: bool | Reporter | None = None
+    shape: ShapeLike, config: Config | None = None, *, name: str | None = None, progress: bool | Progress | None = None
 ) -> Shape:
     """Do the work that depends on one shape alone, so that matching it with many others reuses it.
 
@@ -293,8 +291,7 @@ def render(
     """
     from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
 
-    shapes = _shapes(found, source, target)
-    drawn = as_map(found, shapes[0])
+    drawn, shapes = _map_and_shapes(found, source, target)
     points = check_map(drawn, len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
     if truth is not None:
         known = _truth(truth, shapes)
@@ -345,9 +342,8 @@ def view(
     from kfmaps.viz.notebook import in_notebook, show_in_cell
     from kfmaps.viz.result_pages import match_page, open_page
 
-    shapes = _shapes(found, source, target)
-    made, drawn = as_map(found, shapes[0]), MeshFile(shapes[0])
-    path = made.source_file.path if source is None else source
+    made, shapes = _map_and_shapes(found, source, target)
+    drawn, path = MeshFile(shapes[0]), made.source_file.path if source is None else source
     if is_file(path) and Path(path).is_file():
         file = map_mesh_file(Path(path), made, "source", Path())
         drawn = replace(file, mesh=shapes[0]) if len(file.mesh.faces) == len(shapes[0].faces) else drawn
@@ -377,7 +373,7 @@ def _check_config(config: object) -> None:
         raise refuse("config", "a Config", type(config).__name__, "give kfmaps.Config() or Config.paper(), say")
 
 
-def _telling(progress: bool | Reporter | None) -> AbstractContextManager[Reporter | None]:
+def _telling(progress: bool | Progress | None) -> AbstractContextManager[Progress | None]:
     """What the stages are told to while the context lasts."""
     if progress is True:
         return Stages()
@@ -399,20 +395,22 @@ def _truth(truth: TruthLike | Truth, shapes: tuple[Mesh, Mesh]) -> Truth:
     return check_truth(Truth(both[0], both[1]), *(len(mesh.vertices) for mesh in shapes))
 
 
-def _shapes(found: MapLike, source: ShapeLike | Shape | None, target: ShapeLike | Shape | None) -> tuple[Mesh, Mesh]:
-    """The two shapes of a map: as given, else the match's own, else those that the map's file names."""
+def _map_and_shapes(
+    found: MapLike, source: ShapeLike | Shape | None, target: ShapeLike | Shape | None
+) -> tuple[Match, tuple[Mesh, Mesh]]:
+    """A map and its two shapes: as given, else the match's own, else those that the map's file names."""
     from kfmaps.io.provenance import map_mesh
 
-    named = load_map(Path(found)) if is_file(found) else found
     beside = Path(found) if is_file(found) else Path()
+    found = load_map(beside) if is_file(found) else found
     meshes = []
     for given, side in ((source, "source"), (target, "target")):
         if given is not None:
             meshes.append(_mesh(given, side))
-        elif hasattr(named, side):
-            meshes.append(getattr(named, side))
-        elif isinstance(named, Match):
-            meshes.append(map_mesh(None, named, side, beside, f"give {side}="))
+        elif hasattr(found, side):
+            meshes.append(getattr(found, side))
+        elif isinstance(found, Match):
+            meshes.append(map_mesh(None, found, side, beside, f"give {side}="))
         else:
             raise refuse(side, "the shape", "a map alone", f"give {side}=")
-    return meshes[0], meshes[1]
+    return as_map(found, meshes[0]), (meshes[0], meshes[1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +27,7 @@ from kfmaps.io.text import (
 )
 
 _SKIPPED = frozenset(
-    b"vn vp p l o g s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ctech "
+    b"# vn vp p l o g s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ctech "
     b"stech cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con call csh".split()
 )
 """Words of the format that say nothing about a polygon mesh."""
@@ -35,25 +35,13 @@ _SKIPPED = frozenset(
 MATERIAL = "carried"
 """Name of the material in the files that are written."""
 
-_OTHER, _V, _VT, _VN, _F = range(5)
 
-
-@dataclass(frozen=True, eq=False)
+@dataclass
 class _Lines:
-    """A text, ``letters`` (uint8), its first words blanked, and the ``kind`` and ``length`` of each line.
+    """The lines that begin with the same word."""
 
-    ``said`` are the lines about materials: number, word, rest.
-    """
-
-    letters: np.ndarray
-    kind: np.ndarray
-    length: np.ndarray
-    said: list[tuple[int, str, str]]
-
-    def of(self, kind: int) -> tuple[bytes, np.ndarray]:
-        """Return the text of the lines of one kind, and their numbers in the file."""
-        chosen = self.kind == kind
-        return self.letters[np.repeat(chosen, self.length)].tobytes(), np.flatnonzero(chosen) + 1
+    contents: list[bytes] = field(default_factory=list)  # what stands behind the word
+    numbers: list[int] = field(default_factory=list)  # in the file, from 1
 
 
 def parse_obj(data: bytes, name: str) -> MeshFile:
@@ -65,56 +53,42 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     the materials.
     """
     text = clean_text(data, name).replace(b"\\\n", b"  ")  # after a backslash the line goes on
-    lines = _split(text, name)
-    places, colors = _vertices(_numbers(lines, _V, name, "v x y z"), name)
-    uv = as_table(_numbers(lines, _VT, name, "vt u v"), (2, 3), name, "vt u v")[:, :2].copy()
-    sizes, at, numbers = _corners(lines, name)
-    triangles = fan(sizes)
+    lines = {word: _Lines() for word in (b"v", b"vt", b"f")}
+    vertices, texture, faces = lines.values()
+    before: list[tuple[int, int]] = []  # of each face: vertices and texture coordinates read so far
+    said: list[tuple[int, str, str]] = []
+    for number, line in enumerate(text.split(b"\n"), 1):
+        word, *rest = line.split(None, 1) or [b"#"]
+        kind = lines.get(word)
+        if kind is not None:
+            kind.contents.append(rest[0] if rest else b"")
+            kind.numbers.append(number)
+            if kind is faces:
+                before.append((len(vertices.numbers), len(texture.numbers)))
+        elif word in (b"mtllib", b"usemtl"):
+            said.append((number, word.decode(), b"".join(rest).strip().decode("utf-8", "replace")))
+        elif word not in _SKIPPED:
+            raise refuse(f"{name}, line {number}", "a word of the OBJ format", quoted(word), REPAIR)
 
-    def absolute(column: int, kind: int, total: int) -> np.ndarray:
-        before = np.repeat(np.cumsum(lines.kind == kind)[at - 1], sizes)
-        return _absolute(numbers[:, column], before, total, np.repeat(at, sizes), name)[triangles]
+    places, colors = _vertices(_numbers(vertices, name, "v x y z"), name)
+    uv = as_table(_numbers(texture, name, "vt u v"), (2, 3), name, "vt u v")[:, :2].copy()
+    sizes, numbers = _corners(faces, name)
+    triangles, at, counts = fan(sizes), np.array(faces.numbers), np.array(before).reshape(-1, 2)
 
-    mesh = Mesh(places, absolute(0, _V, len(places)))
+    def absolute(column: int, total: int) -> np.ndarray:
+        so_far = np.repeat(counts[:, column], sizes)
+        return _absolute(numbers[:, column], so_far, total, np.repeat(at, sizes), name)[triangles]
+
+    mesh = Mesh(places, absolute(0, len(places)))
     if len(numbers) == 0 or (numbers[:, 1] == 0).any():
         return MeshFile(mesh, colors)
-    return MeshFile(mesh, colors, uv, absolute(1, _VT, len(uv)), _picture(lines.said, at, name))
+    return MeshFile(mesh, colors, uv, absolute(1, len(uv)), _picture(said, at, name))
 
 
-def _split(text: bytes, name: str) -> _Lines:
-    """Sort the lines by their first words, which are blanked."""
-    text += b"\n\n"  # so that two letters follow each word
-    letters = np.frombuffer(text, dtype=np.uint8).copy()
-    at, line = split_words(letters)
-    leads = np.append(True, line[1:] != line[:-1])[: len(at)]
-    at, line = at[leads], line[leads]
-    ends = np.flatnonzero(letters == 10) + 1
-
-    one, two, three = (letters[at + i] for i in range(3))
-    short, pair = two <= 32, (two > 32) & (three <= 32)
-    found = np.full(len(at), _OTHER, dtype=np.int8)
-    found[short & (one == ord("v"))] = _V
-    found[short & (one == ord("f"))] = _F
-    found[pair & (one == ord("v")) & (two == ord("t"))] = _VT
-    found[pair & (one == ord("v")) & (two == ord("n"))] = _VN
-    said = []
-    for i in np.flatnonzero(found == _OTHER):
-        word, *rest = text[at[i] : ends[line[i]]].split(None, 1)
-        if word in (b"mtllib", b"usemtl"):
-            said.append((int(line[i]) + 1, word.decode(), b"".join(rest).strip().decode("utf-8", "replace")))
-        if word not in _SKIPPED:
-            raise refuse(f"{name}, line {line[i] + 1}", "a word of the OBJ format", quoted(word), REPAIR)
-    letters[at[found > _OTHER]] = 32
-    letters[at[found == _VT] + 1] = 32
-    kind = np.zeros(len(ends), dtype=np.int8)
-    kind[line] = found
-    return _Lines(letters, kind, np.diff(ends, prepend=0), said)
-
-
-def _numbers(lines: _Lines, kind: int, name: str, wanted: str) -> Rows:
-    """The numbers of the lines of one kind, none of them without."""
-    body, at = lines.of(kind)
-    rows = parse_rows(body, name, at)
+def _numbers(lines: _Lines, name: str, wanted: str) -> Rows:
+    """The numbers of lines, none of them without."""
+    at = np.array(lines.numbers, dtype=np.int64)
+    rows = parse_rows(b"\n".join(lines.contents), name, at)
     check_lines(~np.isin(at, rows.lines), at, name, wanted, lambda _: "no numbers")
     return rows
 
@@ -133,9 +107,9 @@ def _vertices(rows: Rows, name: str) -> tuple[np.ndarray, np.ndarray | None]:
     return places, unit_colors(rows.values[rows.starts[:, None] + np.arange(3, 6)])
 
 
-def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Corners of each face, the line of each face, and (corners, 2) vertex and texture numbers (0: none)."""
-    body, numbers = lines.of(_F)
+def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """How many corners each face has, and (corners, 2) vertex and texture numbers (0: none)."""
+    body, numbers = b"\n".join(lines.contents), np.array(lines.numbers, dtype=np.int64)
     at, line = split_words(body)
     sizes = np.bincount(line, minlength=len(numbers))[: len(numbers)]
     check_lines(sizes < 3, numbers, name, "a face with three corners or more", lambda i: str(sizes[i]))
@@ -148,7 +122,7 @@ def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarr
     values = whole_numbers(rows.values, f"{name}: faces", "whole vertex numbers")
     first = np.cumsum(slashes + 1) - (slashes + 1)
     second = np.where(slashes > 0, values[np.minimum(first + 1, len(values) - 1)], 0)
-    return sizes, numbers, np.stack([values[first], second], axis=1)
+    return sizes, np.stack([values[first], second], axis=1)
 
 
 def _absolute(numbers: np.ndarray, before: np.ndarray, total: int, at: np.ndarray, name: str) -> np.ndarray:

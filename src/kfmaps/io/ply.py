@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +14,8 @@ from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
 from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 
-class _Property(NamedTuple):
+@dataclass(frozen=True)
+class _Property:
     """A column: a number, or a list when ``count`` is given. The two are NumPy types with byte order."""
 
     name: str
