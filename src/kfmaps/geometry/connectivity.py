@@ -60,18 +60,22 @@ def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarra
     return order, start, np.diff(start, append=len(order))
 
 
-def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
-    """Return the edges that only one face has.
+def mesh_edges(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the edges of ``faces (f, 3)`` on ``n`` vertices, and how many faces have each.
 
-    ``faces (f, 3)``; ``n``: number of vertices. Returns (b, 2): vertices of each edge, the smaller number first, in
-    ascending order.
+    Returns (e, 2): vertices of each edge, the smaller number first, in ascending order; (e,): numbers of faces.
     """
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    # One number for each edge: rows are sorted ten times as slowly.
+    # One number for each edge: rows are sorted ten times as slowly, and np.unique takes twenty times as long.
     keys = np.sort(np.minimum(tail, head) * n + np.maximum(tail, head))
     starts = np.flatnonzero(np.diff(keys, prepend=-1))
-    keys = keys[starts[np.diff(starts, append=len(keys)) == 1]]
-    return np.stack(np.divmod(keys, max(n, 1)), axis=1)
+    return np.stack(np.divmod(keys[starts], max(n, 1)), axis=1), np.diff(starts, append=len(keys))
+
+
+def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
+    """Return the edges that only one of ``faces (f, 3)`` has, (b, 2), as :func:`mesh_edges` returns them."""
+    edges, sharing = mesh_edges(faces, n)
+    return edges[sharing == 1]
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from scipy.sparse import csr_array
 
 from kfmaps._arrays import blocks, check_count
 from kfmaps.geometry.clean import weld_vertices
-from kfmaps.geometry.connectivity import proper_faces
+from kfmaps.geometry.connectivity import mesh_edges, proper_faces
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.point_cloud import cloud_edges
 
@@ -124,25 +124,22 @@ def _crossed(
     return one + two, *found
 
 
-def _edges(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """The lower and the higher end of each edge of ``faces`` on n vertices, once, in ascending order."""
-    a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edge = np.sort(np.minimum(a, b) * n + np.maximum(a, b))
-    low, high = np.divmod(edge[np.diff(edge, prepend=-1) > 0], max(n, 1))  # np.unique takes twenty times as long
-    keep = low < high
-    return low[keep], high[keep]
+def join_links(links: list[tuple[np.ndarray, np.ndarray, np.ndarray]], n: int) -> csr_array:
+    """Return the symmetric graph (n, n) with the shortest of all links between each two nodes.
 
-
-def _shortest(rows: np.ndarray, columns: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of several lines between the same two vertices the shortest: lower ends, higher ends and lengths, in order."""
-    low, high = np.minimum(rows, columns), np.maximum(rows, columns)
-    keep = low < high
-    low, high, lengths = low[keep], high[keep], lengths[keep]
-    order = np.lexsort((lengths, high, low))
-    low, high, lengths = low[order], high[order], lengths[order]
-    first = np.ones(len(low), dtype=bool)
-    first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
-    return low[first], high[first], lengths[first]
+    ``links``: ends (m,), (m,) and lengths (m,) of links.
+    """
+    a, b, lengths = (np.concatenate(part) for part in zip(*links, strict=True))
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    edge = low * n + high
+    if not ((np.diff(edge) > 0).all() and (low < high).all()):
+        order = np.lexsort((lengths, edge))
+        order = order[np.diff(edge[order], prepend=-1) > 0]
+        order = order[low[order] < high[order]]
+        low, high, lengths = low[order], high[order], lengths[order]
+    lengths = np.maximum(lengths, np.finfo(float).tiny)  # a zero would not count as an entry
+    both = (np.concatenate([low, high]), np.concatenate([high, low]))
+    return csr_array((np.tile(lengths, 2), both), shape=(n, n))
 
 
 def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
@@ -172,7 +169,7 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
         a, b, lengths = cloud_edges(v[places])
         links.append((places[a], places[b], lengths))
     else:
-        a, b = _edges(f, n)
+        a, b = mesh_edges(f, n)[0].T
         links.append((a, b, np.linalg.norm(v[a] - v[b], axis=1)))
         faces = f[proper_faces(f)]
         start, twins = _neighbours(faces) if depth else (np.zeros(1), np.zeros(0))
@@ -182,10 +179,4 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
                 windows, *found = _crossed(v, faces, start, twins, windows)
                 one_way = found[0] < found[1]  # the other end sees the same line
                 links.append((found[0][one_way], found[1][one_way], found[2][one_way]))
-    if len(f) == 0 or any(len(part[0]) for part in links[:1] + links[2:]):
-        low, high, lengths = _shortest(*(np.concatenate(part) for part in zip(*links, strict=True)))
-    else:  # each edge is there once
-        low, high, lengths = links[1]
-    lengths = np.maximum(lengths, np.finfo(float).tiny)  # a zero would not count as an entry
-    both = (np.concatenate([low, high]), np.concatenate([high, low]))
-    return csr_array((np.tile(lengths, 2), both), shape=(n, n))
+    return join_links(links, n)

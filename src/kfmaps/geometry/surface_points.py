@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array
 
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.clean import weld_vertices
@@ -16,6 +16,7 @@ from kfmaps.geometry.geodesic_graph import (
     _unfolded,
     _Windows,
     geodesic_graph,
+    join_links,
 )
 from kfmaps.geometry.geodesics import shortest_paths
 from kfmaps.geometry.mesh import Mesh, unit_rows
@@ -67,7 +68,8 @@ def surface_point_distances(
             if side == 0:
                 near = np.minimum(_nearest(windows), np.inf)
                 windows = windows[near < 1.5 * _limit(straight, places)[windows.source]]
-    graph = _joined(geodesic_graph(mesh), links, n + 2 * q)
+    edges = coo_array(geodesic_graph(mesh))
+    graph = join_links([(edges.row, edges.col, edges.data), *links], n + 2 * q)
     here, apart = n + np.arange(q), np.linalg.norm(places[0] - places[1], axis=1)
     return np.minimum(straight, shortest_paths(graph, here, here + q, apart))
 
@@ -146,16 +148,3 @@ def _met(
     slack = 1e-12 * (place**2).sum(axis=1)
     seen = (_cross(w.low, place) >= -slack) & (_cross(place, w.high) >= -slack)
     np.minimum.at(best, w.source[seen], np.linalg.norm(place[seen], axis=1))
-
-
-def _joined(graph: csr_array, links: list[tuple[np.ndarray, np.ndarray, np.ndarray]], size: int) -> csr_array:
-    """``graph`` with further nodes and the shortest of the ``links`` between two."""
-    edges = coo_array(graph)
-    rows, columns, lengths = (np.concatenate(parts) for parts in zip(*links, strict=True))
-    order = np.lexsort((lengths, columns, rows))
-    rows, columns, lengths = rows[order], columns[order], lengths[order]
-    keep = np.ones(len(rows), dtype=bool)
-    keep[1:] = (rows[1:] != rows[:-1]) | (columns[1:] != columns[:-1])
-    rows, columns, lengths = rows[keep], columns[keep], np.maximum(lengths[keep], np.finfo(float).tiny)
-    ends = np.concatenate([edges.row, rows, columns]), np.concatenate([edges.col, columns, rows])
-    return csr_array((np.concatenate([edges.data, lengths, lengths]), ends), shape=(size, size))
