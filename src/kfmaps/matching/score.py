@@ -31,9 +31,9 @@ class Calibration:
 
     slope: float = 0.92
     """Slope of the logistic function of the score."""
-    middle: float = -12.0
+    middle: float = -12.5
     """Score at which half of all maps are right."""
-    tie: float = 1.3
+    tie: float = 1.6
     """Margin at which the doubt that a different map casts has fallen to 1/e. A map that swaps front and back has
     preceded the right one by 2.1."""
     max_margin: float = math.inf
@@ -42,8 +42,8 @@ class Calibration:
     """Logarithm of the deformation energy of right maps at a score of 0."""
     log_deformation_per_score: float = -0.233
     """Change of that logarithm with the score."""
-    excess_middle: float = 0.65
-    """Excess of the logarithm at which half of all maps are wrong: right near-isometric maps reach 0.38, maps of bodies
+    excess_middle: float = 0.75
+    """Excess of the logarithm at which half of all maps are wrong: right near-isometric maps reach 0.62, maps of bodies
     to their mirror images begin at 0.9."""
     excess_width: float = 0.08
     """Width of that logistic function."""
@@ -57,9 +57,9 @@ class Calibration:
 class PartScoring:
     """Numbers that parts are judged by; see research/parts.md for the shapes that they were chosen on."""
 
-    calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, max_margin=3.0))
+    calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, tie=1.3, max_margin=3.0))
     """Fitted by `benchmarks/parts_verdict.py`."""
-    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, max_margin=3.0))
+    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0))
     """That of two parts, whose right placements score less; fitted by the same to `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
