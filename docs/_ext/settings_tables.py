@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from kfmaps._records import Setting, walk
-from kfmaps.config import KINDS, Config
+from kfmaps.config import FORMULATIONS, KINDS, Config
 from kfmaps.settings.merge import PRESETS, preset, text_of
 
 BEGIN, END = "<!-- begin: made by docs/_ext/settings_tables.py -->", "<!-- end -->"
@@ -47,9 +47,11 @@ def tables() -> str:
             values = " | ".join(_value_in(config, path, cls, one) for config in configs)
             lines.append(f"| `{path}`{option} | {one.help}{of} | {one.values(KINDS)} | {values} |")
     names = ["* `default`: what `kfmaps match` and `kfmaps.match` use, that is `Config()`"]
-    for name in PRESETS[1:]:
-        about = " ".join((getdoc(getattr(Config, name.replace("-", "_"))) or "").split())
-        names.append(f"* `{name}`: {about.partition('. ')[0].rstrip('.')}")
+    for name in [name for name in PRESETS[1:] if name not in FORMULATIONS]:
+        first = (getdoc(getattr(Config, name.replace("-", "_"))) or "").partition("\n\n")[0]
+        names.append(f"* `{name}`: {' '.join(first.split()).rstrip('.')}")
+    published = ", ".join(f"`{name}`" for name in FORMULATIONS)
+    names.append(f"* {published}: [published formulations](formulations.md#presets)")
     return "\n".join([BEGIN, "", "### Presets", "", *names, *lines, "", END])
 
 

@@ -131,54 +131,30 @@ class Config:
         return replace(cls.no17(), weights=Weights(descriptors=0.1, commutativity=0.0, laplacian=1e-12))
 
     @classmethod
-    def published(cls, formulation: Formulation) -> Config:
-        """``formulation`` with a linear kernel and nothing but descriptors and the Laplacian, as its authors had it.
+    def published(cls, name: str) -> Config:
+        """One of :data:`FORMULATIONS` with a linear kernel and nothing but descriptors and the Laplacian.
 
-        Sizes, descriptors and weights are those of :meth:`obcs12` with α = 1, so that presets differ in the formulation
-        alone, and from a run with ``kernel=Gaussian()`` in the kernel alone.
+        Sizes, descriptors and weights are those of :meth:`obcs12` with α = 1, for "ren19" of :meth:`no17`, so that
+        presets differ in the formulation alone, and from a run with ``kernel=Gaussian()`` in the kernel alone.
         """
-        return replace(cls.no17(), weights=Weights(1.0, 0.0, 1.0), formulation=formulation)
+        if name not in FORMULATIONS:
+            raise refuse("preset", "one of " + ", ".join(FORMULATIONS), repr(name), "choose one of them")
+        base = cls.no17()
+        weights = base.weights if name == "ren19" else Weights(1.0, 0.0, 1.0)
+        return replace(base, weights=weights, formulation=FORMULATIONS[name])
 
-    @classmethod
-    def kovnatsky13(cls) -> Config:
-        """Kovnatsky et al. (2013), Coupled quasi-harmonic bases: a fit in coupled bases."""
-        return cls.published(Formulation(coupled_bases=True))
 
-    @classmethod
-    def pokrass13(cls) -> Config:
-        """Pokrass et al. (2013), Sparse modeling of intrinsic correspondences: few entries, near the diagonal."""
-        return cls.published(Formulation(sparsity=0.001))
-
-    @classmethod
-    def kovnatsky15(cls) -> Config:
-        """Kovnatsky et al. (2015), Functional correspondence by matrix completion: their L2,1 loss per descriptor."""
-        return cls.published(Formulation(loss="l21", loss_group="descriptor"))
-
-    @classmethod
-    def kovnatsky16(cls) -> Config:
-        """Kovnatsky et al. (2016), MADMM: the L2,1 loss over orthogonal maps."""
-        return cls.published(Formulation(constraint="orthogonal", loss="l21", loss_group="descriptor"))
-
-    @classmethod
-    def eynard16(cls) -> Config:
-        """Eynard et al. (2016), Coupled functional maps: both directions, each the other's inverse."""
-        return cls.published(Formulation(bidirectional=True, inverse_weight=1.0, adjoint_weight=0.0))
-
-    @classmethod
-    def huang17(cls) -> Config:
-        """Huang and Ovsjanikov (2017), Adjoint map representation: both directions, each the other's adjoint."""
-        return cls.published(Formulation(bidirectional=True, inverse_weight=0.0, adjoint_weight=1.0))
-
-    @classmethod
-    def gasparetto17(cls) -> Config:
-        """Gasparetto et al. (2017), Spatial maps: a map that moves the whole area of both shapes."""
-        return cls.published(Formulation(transport_weight=0.1))
-
-    @classmethod
-    def ren19(cls) -> Config:
-        """Ren et al. (2019), Structured regularization: NO17 with the resolvent mask, γ = 0.5."""
-        return replace(cls.no17(), formulation=Formulation(mask="resolvent", mask_power=0.5))
-
+FORMULATIONS = {
+    "kovnatsky13": Formulation(coupled_bases=True),  # Coupled quasi-harmonic bases
+    "pokrass13": Formulation(sparsity=0.001),  # Sparse modeling of intrinsic correspondences
+    "kovnatsky15": Formulation(loss="l21", loss_group="descriptor"),  # Functional correspondence by matrix completion
+    "kovnatsky16": Formulation("orthogonal", loss="l21", loss_group="descriptor"),  # MADMM
+    "eynard16": Formulation(bidirectional=True, inverse_weight=1.0, adjoint_weight=0.0),  # Coupled functional maps
+    "huang17": Formulation(bidirectional=True, inverse_weight=0.0, adjoint_weight=1.0),  # Adjoint map representation
+    "gasparetto17": Formulation(transport_weight=0.1),  # Spatial maps
+    "ren19": Formulation(mask="resolvent", mask_power=0.5),  # Structured regularization
+}
+"""What published methods ask of the map; docs/formulations.md says it in words."""
 
 KINDS: _records.Kinds = {KernelLike: KERNELS, Refinement: (ZoomOut, ICP)}
 """The records that a settings file can name where any callable will do."""

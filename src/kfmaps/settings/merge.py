@@ -13,7 +13,7 @@ from typing import Any
 
 from kfmaps._arrays import InvalidInput, MissingDependency, refuse
 from kfmaps._records import JsonObject, Setting, record_as_dict, settings_of, walk
-from kfmaps.config import KINDS, RECORDS, Config, from_dict
+from kfmaps.config import FORMULATIONS, KINDS, RECORDS, Config, from_dict
 from kfmaps.kernels.kernels import describe_kernel
 
 SUFFIX = ".pt"
@@ -41,17 +41,16 @@ def read_learned(path: str | Path) -> JsonObject:
     return content
 
 
-PRESETS = (
-    *("default", "single-fit", "paper", "no17", "obcs12", "kovnatsky13", "pokrass13", "kovnatsky15", "kovnatsky16"),
-    *("eynard16", "huang17", "gasparetto17", "ren19"),
-)
-"""Methods of :class:`~kfmaps.config.Config` that make one; "default" is ``Config()``."""
+PRESETS = ("default", "single-fit", "paper", "no17", "obcs12", *FORMULATIONS)
+"""Names of configurations: ``Config()``, methods of :class:`~kfmaps.config.Config`, and published formulations."""
 
 
 def preset(name: str) -> Config:
     """Return the configuration of that name among :data:`PRESETS`."""
     if name not in PRESETS:
         raise refuse("--preset", "one of " + ", ".join(PRESETS), repr(name), "choose one of them")
+    if name in FORMULATIONS:
+        return Config.published(name)
     return Config() if name == "default" else getattr(Config, name.replace("-", "_"))()
 
 
