@@ -33,13 +33,7 @@ def remove_unfinished(folder: Path, older: float = 0.0) -> None:
 def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Path | None] = ()) -> Path:
     """Return the file that writing to ``path`` would make, links followed; call it before long work.
 
-    Parameters
-    ----------
-    path : str or Path
-    force : bool
-        Whether an existing file may be replaced.
-    reads : iterable of path or None
-        Files that the work reads, none of which may be replaced.
+    ``force``: whether an existing file may be replaced; ``reads``: files that the work reads, which never are.
 
     Raises
     ------

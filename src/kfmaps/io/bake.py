@@ -119,16 +119,9 @@ class TransferredUv:
 
 
 def projected_uv(vertices: np.ndarray) -> np.ndarray:
-    """Return texture coordinates by looking along the shortest side of the bounding box.
+    """Return texture coordinates (n, 2) of ``vertices (n, 3)``, seen along the shortest side of the bounding box.
 
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-
-    Returns
-    -------
-    (n, 2) float64
-        From 0 to 1; the longest side runs upwards and fills the height, lengths are alike in both directions.
+    They are from 0 to 1; the longest side runs upwards and fills the height, lengths are alike in both directions.
     """
     span = np.ptp(vertices, axis=0)
     _, across, up = np.argsort(span, kind="stable")

@@ -27,13 +27,7 @@ _PICTURES = (".png", ".jpg", ".jpeg")
 
 
 def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
-    """Draw a checkerboard whose colour tells where one is, with thin lines between the cells.
-
-    Returns
-    -------
-    (size, size, 3) uint8
-        Row 0 is the top.
-    """
+    """Draw a checkerboard whose colour tells where one is, with thin lines between the cells: (size, size, 3) uint8."""
     across, down = np.meshgrid(*2 * [(np.arange(size) + 0.5) / size])
     x, y = across * cells, (1 - down) * cells
     hue = np.stack([across, 1 - down, 1 - across], axis=-1)
@@ -69,8 +63,7 @@ def write_textured(
     target : Mesh or MeshFile
     target_to_source : (n_t,) int64 or Match
     picture : str or Path, optional
-        The source's texture, PNG or JPEG; by default its own, if its file holds one, or a coloured grid
-        (:func:`grid_picture`).
+        PNG or JPEG; by default the source's own, if its file holds one, or a coloured grid (:func:`grid_picture`).
     size : int, optional
         Longer side of the written picture in texels; by default that of the source's.
     force : bool
@@ -84,8 +77,7 @@ def write_textured(
     Raises
     ------
     InvalidInput
-        On a target without faces, a map that does not fit, a picture that is missing or of another
-        format, and as :func:`atomic_output`.
+        On a target without faces, a map or picture that does not fit, and as :func:`atomic_output`.
     """
     path, suffix = Path(path), check_suffix(path, (".obj", ".glb"), "output")
     if any(ord(letter) < 32 for letter in path.name):

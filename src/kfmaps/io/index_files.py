@@ -95,39 +95,17 @@ def write_landmarks(path: str | Path, pairs: np.ndarray, *, names: Sequence[str]
 def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost: bool = False) -> np.ndarray:
     """Read a list of vertex numbers, one a line; ``#`` starts a comment.
 
-    Parameters
-    ----------
-    path : str or Path
-    one_based : bool, optional
-        As in :func:`read_landmarks`.
-    lost : bool
-        Whether −1 may stand for no vertex.
-
-    Returns
-    -------
-    (m,) int64
-        0-based, −1 for no vertex.
-
-    Raises
-    ------
-    InvalidInput
-        On a file that is missing, empty, or has a line of anything else.
+    ``path``, ``one_based`` and errors are as of :func:`read_landmarks`; ``lost``: whether −1 may stand for no vertex.
+    Returns (m,) int64, 0-based.
     """
     first = _first_number(path) if one_based is None else int(one_based)
     return _read_numbers(path, 1, first, "one whole number a line", lost)[:, 0]
 
 
 def write_vertex_numbers(path: str | Path, numbers: np.ndarray, *, force: bool = False) -> None:
-    """Write vertex numbers so that :func:`read_vertex_numbers` reads them back.
+    """Write vertex numbers (m,), 0-based, so that :func:`read_vertex_numbers` reads them back; −1 stays.
 
-    Parameters
-    ----------
-    path : str or Path
-        As in :func:`write_landmarks`.
-    numbers : (m,) int
-        0-based; −1 stays.
-    force : bool
-        Whether an existing file is replaced.
+    ``path`` and ``force`` are as of :func:`write_landmarks`.
     """
     numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list").astype(np.int64)
     lines = map(str, np.where(numbers == -1, -1, numbers + _first_number(path)).tolist())

@@ -81,15 +81,8 @@ def check_map(
 ) -> np.ndarray:
     """Return ``target_to_source`` as (n_t,) int64 where it names a source vertex for every target vertex.
 
-    Parameters
-    ----------
-    target_to_source : array or Match
-    n_s, n_t : int, optional
-        Numbers of vertices of the source and target, when known.
-    name : str
-        How messages call it.
-    lost : bool
-        Whether −1 may stand for a vertex without counterpart.
+    ``target_to_source``: an array or a Match; ``n_s`` and ``n_t``: numbers of vertices of the source and target, when
+    known; ``name``: how messages call it; ``lost``: whether −1 may stand for a vertex without counterpart.
 
     Raises
     ------

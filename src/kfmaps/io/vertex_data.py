@@ -127,13 +127,7 @@ def _npy(data: bytes, name: str) -> np.ndarray:
 def write_values(path: str | Path, values: Values, force: bool = False) -> None:
     """Write per-vertex values so that :func:`read_values` reads them back; every digit is kept.
 
-    Parameters
-    ----------
-    path : str or Path
-        ``.npy``, ``.csv`` or ``.txt``.
-    values : Values
-    force : bool
-        Whether an existing file is replaced.
+    ``path``: ``.npy``, ``.csv`` or ``.txt``; ``force``: whether an existing file is replaced.
 
     Raises
     ------
