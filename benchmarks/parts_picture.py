@@ -19,8 +19,7 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.io import load_map, save_map
-from kfmaps.io.partial_map import find_counterparts
-from kfmaps.io.transfer import LOST_GREY, transfer
+from kfmaps.io.transfer import LOST_GREY, find_counterparts, transfer
 from kfmaps.viz import automatic_view, position_colors, save_figure
 from kfmaps.viz.camera import following_view
 from kfmaps.viz.surfaces import draw_surface

@@ -128,7 +128,7 @@ def test_all_files_or_none(tmp_path: Path, existing: str) -> None:
         ("out.obj", np.arange(119), globe().mesh, None, "shape"),
         ("out.obj", np.arange(120) + 1, globe().mesh, None, "from 0 to 119"),
         ("out.obj", np.arange(120), Mesh(globe().mesh.vertices, np.zeros((0, 3), dtype=int)), None, "point cloud"),
-        ("out.obj", np.arange(120), globe().mesh, "none.png", "picture"),
+        ("out.obj", np.arange(120), globe().mesh, "none.png", "none.png: expected a file"),
     ],
 )
 def test_bad_exports(

@@ -16,7 +16,7 @@ from kfmaps.cli.partial_truth import PartTruth, _true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area, vertex_areas
 from kfmaps.io import load_map, save_map, write_mesh
-from kfmaps.io.partial_map import find_counterparts
+from kfmaps.io.transfer import find_counterparts
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchPart, ShapeFile
 

@@ -18,7 +18,7 @@ from kfmaps.io import load_map
 from kfmaps.io.atomic import table_cell
 from kfmaps.io.landmark_files import fixed_rows
 from kfmaps.io.meshes import read_shape_mesh
-from kfmaps.io.partial_map import find_counterparts
+from kfmaps.io.transfer import find_counterparts
 
 
 def local_differences(

@@ -38,7 +38,7 @@ from kfmaps.io.named_points import (
     points_on_surface,
     transfer_points,
 )
-from kfmaps.io.partial_map import find_counterparts
+from kfmaps.io.transfer import find_counterparts
 from kfmaps.matching.result import Match
 
 MATCHES = "matches"

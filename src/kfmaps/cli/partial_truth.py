@@ -15,8 +15,8 @@ from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positio
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
 from kfmaps.io import read_landmarks
-from kfmaps.io.partial_map import precise_points
 from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes
+from kfmaps.io.transfer import precise_points
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.registration import overlap_probability
 from kfmaps.matching.result import Match

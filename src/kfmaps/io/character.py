@@ -12,8 +12,8 @@ from kfmaps.geometry.arap import build_arap, edge_covariances, nearest_rotations
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.geometry.similarity import similarity
 from kfmaps.io.mapcontent import check_map
-from kfmaps.io.partial_map import point_map
 from kfmaps.io.record import MeshFile, Skin
+from kfmaps.io.transfer import point_map
 from kfmaps.matching.result import Match
 
 _SURROUNDINGS = 1e-3  # part of the surface over which its turn and stretch by the map are averaged

@@ -17,13 +17,10 @@ from kfmaps.io.glb import format_glb
 from kfmaps.io.mapcontent import check_map
 from kfmaps.io.meshes import write_mesh
 from kfmaps.io.obj import MATERIAL, format_obj
-from kfmaps.io.partial_map import point_map, precise_points
-from kfmaps.io.record import MeshFile, Picture
-from kfmaps.io.text import check_suffix
-from kfmaps.io.transfer import LOST_GREY, transfer
+from kfmaps.io.record import MeshFile, Picture, picture_in
+from kfmaps.io.text import check_suffix, read_bytes
+from kfmaps.io.transfer import LOST_GREY, point_map, precise_points, transfer
 from kfmaps.matching.result import Match
-
-_PICTURES = (".png", ".jpg", ".jpeg")
 
 
 def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
@@ -57,7 +54,7 @@ def write_textured(
     Parameters
     ----------
     path : str or Path
-        ``NAME.obj``, with ``NAME.mtl`` and ``NAME.png`` (or the suffix of ``picture``) beside it, or ``NAME.glb``.
+        ``NAME.obj``, with ``NAME.mtl`` and ``NAME.png`` (or ``NAME.jpg``) beside it, or ``NAME.glb``.
     source : MeshFile
         With its texture coordinates; without any they come from :func:`projected_uv`.
     target : Mesh or MeshFile
@@ -83,15 +80,14 @@ def write_textured(
     if any(ord(letter) < 32 for letter in path.name):
         raise refuse(f"output {path}", "a printable name", "a control character", "rename it")
     target = target if isinstance(target, MeshFile) else MeshFile(target)
-    if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in _PICTURES):
-        raise refuse(f"picture {picture}", f"a file {' '.join(_PICTURES)}", "none", "check the name")
-    image = _picture(picture, source)
+    image = None if picture is None else picture_in(read_bytes(picture))
+    if picture is not None and image is None:
+        raise refuse(f"picture {picture}", "a PNG or JPEG file", "another", "convert it")
     made = textured(source, target, target_to_source, image, size)
     if suffix == ".glb":
         write_bytes(path, format_glb(transfer_character(source, made, target_to_source)), force)
         return [path]
-    given = made.picture == image and picture is not None
-    return _write_obj(path, made, Path(picture).suffix if picture and given else None, force)
+    return _write_obj(path, made, force)
 
 
 def textured(
@@ -106,7 +102,7 @@ def textured(
     ``target_to_source (n_t,)``; ``picture``: by default the source's own, or a coloured grid; ``size``: longer side of
     the picture in texels; see :func:`kfmaps.io.bake.transfer_texture`.
     """
-    mesh, picture = target.mesh, picture or _picture(None, source)
+    mesh, picture = target.mesh, picture or source.picture or encode_png(grid_picture())
     if len(mesh.faces) == 0:
         raise refuse("target", "a surface with faces", "a point cloud", "export colours as .ply")
     points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
@@ -125,10 +121,10 @@ def textured(
     return transfer_texture(source, target, found, picture, size)
 
 
-def _write_obj(path: Path, made: MeshFile, suffix: str | None, force: bool) -> list[Path]:
+def _write_obj(path: Path, made: MeshFile, force: bool) -> list[Path]:
     """Write an OBJ file with its MTL and picture beside it; return their names."""
     assert made.picture is not None
-    material, beside = path.with_suffix(".mtl"), path.with_suffix(suffix or made.picture.suffix)
+    material, beside = path.with_suffix(".mtl"), path.with_suffix(made.picture.suffix)
     content = format_obj(replace(made, colors=None), material.name)
     lines = [f"newmtl {MATERIAL}", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {beside.name}", ""]
     with ExitStack() as files:  # renamed in reverse order, the OBJ file that names the others last
@@ -136,14 +132,6 @@ def _write_obj(path: Path, made: MeshFile, suffix: str | None, force: bool) -> l
         files.enter_context(atomic_output(material, force)).write_text("\n".join(lines), encoding="utf-8")
         files.enter_context(atomic_output(beside, force)).write_bytes(made.picture.data)
     return [path, material, beside]
-
-
-def _picture(picture: str | Path | None, source: MeshFile) -> Picture:
-    """A picture file, by default the source's own or the grid."""
-    if picture is not None:
-        kind = "image/png" if Path(picture).suffix.lower() == ".png" else "image/jpeg"
-        return Picture(Path(picture).read_bytes(), kind)
-    return source.picture or encode_png(grid_picture())
 
 
 def write_colored(
@@ -182,7 +170,7 @@ def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarr
     ends = bent * np.sqrt(surface_area(target)) + target.vertices.mean(axis=0)
     moved, suffix = replace(source, mesh=Mesh(ends, source.mesh.faces)), Path(path).suffix.lower()
     if suffix == ".obj" and source.picture and source.uv is not None:
-        _write_obj(Path(path), moved, None, force)
+        _write_obj(Path(path), moved, force)
     elif suffix == ".glb":
         write_bytes(path, format_glb(replace(source, morphs={"target": ends - source.mesh.vertices})), force)
     else:

@@ -15,10 +15,9 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_values, write_values
 from kfmaps.io.landmark_files import check_landmark_format, mesh_space
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
-from kfmaps.io.partial_map import Counterparts, find_counterparts, precise_points
 from kfmaps.io.provenance import mesh_path, read_shape
+from kfmaps.io.transfer import Counterparts, find_counterparts, precise_points, transfer_back, transfer_by_functions
 from kfmaps.io.transfer import transfer as transfer_values
-from kfmaps.io.transfer import transfer_back, transfer_by_functions
 from kfmaps.matching.result import Match
 
 _SIDES = ("source", "target")
