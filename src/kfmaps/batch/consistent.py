@@ -7,7 +7,7 @@ The scores of each pair, each composition and each replacement are a file of the
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import Result, result_path, write_rows
 from kfmaps.batch.run_spec import digest_of
-from kfmaps.batch.shape_statistics import write_shape_statistics
+from kfmaps.batch.shape_statistics import ShapeStatistics, write_shape_statistics
 from kfmaps.batch.work import (
     PairTask,
     error_text,
@@ -48,7 +48,7 @@ from kfmaps.shape import Shape
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
 _TABLE = "pairs.csv"
-_LAYOUT = 6  # raised when what is kept of a pair changes
+_LAYOUT = 7  # raised when what is kept of a pair changes
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +59,7 @@ class ConsistentResult:
     before: dict[Pair, Result]  # of replaced maps the old
     doubted: tuple[str, ...]  # a line for each pair that others contradict and for which nothing better is known
     notes: tuple[str, ...] = ()  # what could not be taken into account
+    shapes: ShapeStatistics = field(default_factory=ShapeStatistics)
 
     @property
     def replaced(self) -> int:
@@ -117,8 +118,9 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
     folder = plan.folder / CONSISTENT
     _write_pairs(folder / _TABLE, tasks, scores, names, repaired)
     common = common_bases(repaired, ends, scores, (load_prepared(task).basis for task in shapes.values()))
-    notes += write_shape_statistics(folder, names, lambda name: load_prepared(shapes[name]).basis, repaired, common)
-    return ConsistentResult(final, {key: known[key] for key in changed}, tuple(doubted), tuple(notes))
+    told = write_shape_statistics(folder, names, lambda name: load_prepared(shapes[name]).basis, repaired, common)
+    notes += [told.note] if told.note else []
+    return ConsistentResult(final, {key: known[key] for key in changed}, tuple(doubted), tuple(notes), told)
 
 
 @dataclass(frozen=True)
@@ -157,17 +159,11 @@ class _ReplaceTask:
 
 @dataclass(frozen=True, eq=False)
 class _Evidence:
-    """Scored maps of a pair on disk; of a composition with its ``points``."""
+    """Scored maps of a pair on disk."""
 
     inputs: str
     functional_maps: np.ndarray  # (m, k, k)
     numbers: np.ndarray  # (m, 3): score, orientation, and whether it is reversed
-    points: np.ndarray | None = None
-
-    @property
-    def maps(self) -> list[ScoredMap]:
-        rows = zip(self.functional_maps, self.numbers.tolist(), strict=True)
-        return [ScoredMap(C, score, orientation, bool(back)) for C, (score, orientation, back) in rows]
 
 
 def _map_digest(task: PairTask) -> str:
@@ -176,40 +172,39 @@ def _map_digest(task: PairTask) -> str:
     return digest_of([_LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
 
 
-def _evidence(job: _ScoreTask) -> _Evidence:
+def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
     """Score maps of a pair, unless their scores are kept.
 
     Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
     """
-    digests = [_map_digest(task) for task, _, _ in job.steps] or _map_digest(job.task)
-    inputs = digest_of(digests, 32)
-    found = load_record(job.file, _Evidence)
-    if found is not None and found.inputs == inputs:
-        return found
-    shapes, points = _shapes(job.task), None
-    with one_blas_thread():
-        samples = pair_samples(job.task, shapes)
-        if job.steps:
-            bases = [None if forward else load_prepared(task.source).basis for task, _, forward in job.steps]
-            candidates = [_candidates(task)[number] for task, number, _ in job.steps]
-            made = compose_path(list(zip(candidates, bases, strict=True)))
-            maps, points = score_candidates([made], shapes, samples), made[0]
-        else:
-            file = load_map(map_path(Path(job.task.folder), job.task.key))
-            lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)
-            if lost:
-                text = "the map of a part stays as it is and takes no part in this"
-                raise InvalidInput(f"{text}: {lost} of {n_t} vertices have no counterpart")
-            maps = score_stored(file, shapes, samples)
-    numbers = np.array([[one.score, one.orientation, one.reversed] for one in maps], dtype=np.float64)
-    found = _Evidence(inputs, np.stack([one.map for one in maps]), numbers, points)
-    job.file.parent.mkdir(parents=True, exist_ok=True)
-    save_record(job.file, found)
-    return found
+    inputs = digest_of([_map_digest(task) for task, _, _ in job.steps] or _map_digest(job.task), 32)
+    kept = load_record(job.file, _Evidence)
+    if kept is None or kept.inputs != inputs:
+        shapes = _shapes(job.task)
+        with one_blas_thread():
+            samples = pair_samples(job.task, shapes)
+            if job.steps:
+                maps = score_candidates([_compose(job)], shapes, samples)
+            else:
+                file = load_map(map_path(Path(job.task.folder), job.task.key))
+                lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)
+                if lost:
+                    text = "the map of a part stays as it is and takes no part in this"
+                    raise InvalidInput(f"{text}: {lost} of {n_t} vertices have no counterpart")
+                maps = score_stored(file, shapes, samples)
+        numbers = np.array([[one.score, one.orientation, one.reversed] for one in maps], dtype=np.float64)
+        kept = _Evidence(inputs, np.stack([one.map for one in maps]), numbers)
+        job.file.parent.mkdir(parents=True, exist_ok=True)
+        save_record(job.file, kept)
+    rows = zip(kept.functional_maps, kept.numbers.tolist(), strict=True)
+    return [ScoredMap(C, score, orientation, bool(back)) for C, (score, orientation, back) in rows]
 
 
-def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
-    return _evidence(job).maps
+def _compose(job: _ScoreTask) -> StoredMap:
+    """Compose the maps of a path."""
+    candidates = [_candidates(task)[number] for task, number, _ in job.steps]
+    bases = [None if forward else load_prepared(task.source).basis for task, _, forward in job.steps]
+    return compose_path(list(zip(candidates, bases, strict=True)))
 
 
 def _replace_map(job: _ReplaceTask) -> Result:
@@ -219,10 +214,7 @@ def _replace_map(job: _ReplaceTask) -> Result:
     other = map_path(folder / CONSISTENT, task.key)
 
     def replaced() -> dict[str, Any]:
-        composition = None
-        if job.path is not None:
-            made = _evidence(job.path)
-            composition = None if made.points is None else (made.points, made.maps[0].reversed)
+        composition = None if job.path is None else _compose(job.path)
         shapes, config = _shapes(task), replace(task.spec.config, threads=1)
         found = refine_replacement(change, _candidates(task), composition, shapes, config, job.label, task.spec.seed)
         truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))

@@ -20,19 +20,18 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps._threads import one_blas_thread
 from kfmaps.api import render
-from kfmaps.batch.consistent import CONSISTENT, ConsistentResult, map_in_use
+from kfmaps.batch.consistent import ConsistentResult, map_in_use
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, describe_result, fitting_limit, summarize, worst_first
 from kfmaps.batch.run_spec import read_run_spec
-from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_paths
+from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, ShapeStatistics
 from kfmaps.batch.work import PairTask, map_path, true_vertices
 from kfmaps.cli.evaluation import Truth
 from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text
-from kfmaps.io.text import read_table
 from kfmaps.viz import Curve, curves_figure, mean_curve, save_figure
 from kfmaps.viz.document import data_address, environment, policy
 from kfmaps.viz.figures import make_transparent
@@ -90,7 +89,7 @@ def write_page(
     if consistent is not None:
         replaced = [r for r in consistent.results if r.changed and r.pair in consistent.before]
         changed = _pictures(tasks, replaced, worst, fitting_limit(consistent.results), consistent.before)
-        agreement = AgreementSection(changed, consistent.doubted, _specimens(plan))
+        agreement = AgreementSection(changed, consistent.doubted, _specimens(plan, consistent.shapes))
     page = summary_page(
         name,
         results,
@@ -186,22 +185,18 @@ def _addresses(pictures: Mapping[str, bytes]) -> list[tuple[str, str]]:
     return [(caption, data_address("image/png", png)) for caption, png in pictures.items()]
 
 
-def _specimens(plan: Plan) -> dict[str, Any]:
+def _specimens(plan: Plan, known: ShapeStatistics) -> dict[str, Any]:
     """What the maps say of the shapes: a chart and a picture of each component, and a table; empty without."""
-    folder = plan.folder / CONSISTENT
-    paths = limit_shape_paths(folder)
-    if not paths:
+    if not known.parts:
         return {}
-    rows = read_table(folder / SHAPES)
+    rows = [dict(zip(known.table[0], row, strict=True)) for row in known.table[1:]]
     meshes = {t.name: t.path for task in plan.tasks for t in (task.source, task.target)}
     sections = []
-    for path in paths:
-        with np.load(path, allow_pickle=False) as arrays:
-            known = {name: arrays[name] for name in arrays.files}
-        own, middle = set(known["names"].tolist()), str(known["middle"])
-        chart = _chart([row for row in rows if row["shape"] in own], known)
-        which = f": {len(own)} like {middle}" if len(paths) > 1 else ""
-        varied = _variation(meshes.get(middle), known)
+    for part in known.parts:
+        own, middle = set(part["names"].tolist()), str(part["middle"])
+        chart = _chart([row for row in rows if row["shape"] in own], part)
+        which = f": {len(own)} like {middle}" if len(known.parts) > 1 else ""
+        varied = _variation(meshes[middle], part)
         sections.append({"chart": _svg(chart), "which": which, "variation": varied, "middle": middle})
     titles = [t for t in rows[0] if any(row[t] for row in rows) and (t != "part" or len({r[t] for r in rows}) > 1)]
     return {"sections": sections, "shapes": {"titles": titles, "rows": rows}}
@@ -226,11 +221,11 @@ def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> Figure:
     return figure
 
 
-def _variation(path: str | None, known: dict[str, np.ndarray]) -> str:
-    if path is None or not Path(path).exists():
+def _variation(path: str, part: dict[str, np.ndarray]) -> str:
+    if not Path(path).exists():
         return ""
     mesh = _quiet_mesh(path)
-    values = {f"{kind} differs by": known[f"variation_{kind}"] for kind in DIFFERENCE_KINDS}
+    values = {f"{kind} differs by": part[f"variation_{kind}"] for kind in DIFFERENCE_KINDS}
     if any(len(v) != len(mesh.vertices) for v in values.values()):
         return ""
     return data_address("image/png", _png(values_figure(mesh, values)))
