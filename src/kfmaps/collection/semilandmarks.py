@@ -61,6 +61,7 @@ def slide_semilandmarks(
         return points
     energy = np.zeros((len(points), len(points)))
     energy[np.ix_(used, used)] = bending_energy_matrix(template[used])
+    ends = np.cumsum([len(path.rows) for path in paths])[:-1]
     slid = np.where(there[:, None], points, 0.0)
     least = float(np.einsum("ia,ij,ja->", slid, energy, slid))
     tolerance = 1e-6  # largest step, in the length of the longest curve, at which the rounds end
@@ -73,7 +74,7 @@ def slide_semilandmarks(
         steps *= min(1.0, longest / max(np.abs(steps / np.concatenate([path.gaps() for path in paths])).max(), 1e-300))
         new, before = slid.copy(), [path.at for path in paths]
         while np.abs(steps).max() > tolerance * max(path.length for path in paths):
-            for path, at, step in zip(paths, before, np.split(steps, _ends(paths)), strict=True):
+            for path, at, step in zip(paths, before, np.split(steps, ends), strict=True):
                 path.at = at + step
                 new[path.rows] = path.spline(path.at)
             value = float(np.einsum("ia,ij,ja->", new, energy, new))
@@ -114,7 +115,3 @@ def _distinct(points: np.ndarray, rows: Sequence[int]) -> np.ndarray:
         if not found or np.linalg.norm(points[found] - points[row], axis=1).min() > near:
             found.append(row)
     return np.array(found)
-
-
-def _ends(paths: Sequence[_Path]) -> np.ndarray:
-    return np.cumsum([len(path.rows) for path in paths])[:-1]

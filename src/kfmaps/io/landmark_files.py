@@ -84,37 +84,27 @@ def read_landmark_sets(path: str | Path) -> list[LandmarkSet]:
     vertex", or columns with titles, among them a specimen) or for each specimen (columns ``x_NAME``, ``y_NAME``,
     ``z_NAME``, or ``NAME.X`` and so on).
     """
-    read = _format(path, "landmarks")[0]
+    read = landmark_format(path, "landmarks")[0]
     name = str(path)
     with complete_or_refuse(name, f"a complete {_suffix(path)} file"):
         sets = read(read_text(path), name)
     if not sets or not any(len(one.names) for one in sets):
         raise refuse(name, "landmarks", "none", "check that it is the right file")
     for one in sets:
-        check_names(one.names, name)
+        again = next((label for label, count in Counter(one.names).items() if count > 1), None)
+        if again is not None:
+            raise refuse(name, "each name once", f"{again!r} twice", "rename one")
         if np.isinf(one.points).any():
             raise refuse(name, "finite numbers", "infinite ones", REPAIR)
     return sets
 
 
-def check_names(names: Sequence[str], what: str) -> None:
-    """Raise :class:`InvalidInput` where a landmark's name is there twice."""
-    again = next((label for label, count in Counter(names).items() if count > 1), None)
-    if again is not None:
-        raise refuse(what, "each name once", f"{again!r} twice", "rename one")
-
-
 def write_landmark_sets(path: str | Path, sets: Sequence[LandmarkSet], force: bool = False) -> None:
     """Write landmarks so that :func:`read_landmark_sets` reads them back; the extension tells the format."""
-    _, write, many = _format(path, "output")
+    _, write, many = landmark_format(path, "output")
     if len(sets) != 1 and not many:
         raise refuse(f"output {path}", "one specimen", str(len(sets)), "write .csv or .tps, or a file for each")
     write_text(path, write(sets), force)
-
-
-def check_landmark_format(path: str | Path, what: str = "landmarks") -> None:
-    """Raise :class:`InvalidInput` where ``path`` has no extension of a landmark file."""
-    _format(path, what)
 
 
 def landmark_suffix(path: str | Path) -> str:
@@ -145,7 +135,11 @@ def _suffix(path: str | Path) -> str:
     return ".mrk.json" if name.endswith(".mrk.json") else Path(name).suffix
 
 
-def _format(path: str | Path, what: str) -> tuple[Callable, Callable, bool]:
+def landmark_format(path: str | Path, what: str) -> tuple[Callable, Callable, bool]:
+    """Return reader and writer of a landmark file, and whether it holds several specimens; refuse another file.
+
+    ``what``: how messages call it.
+    """
     found = _FORMATS.get(_suffix(path))
     if found is None:
         got = _suffix(path) or "no extension"
@@ -167,10 +161,6 @@ def _points(rows: Sequence[Sequence[str]], name: str) -> np.ndarray:
         points[i] = [*map(float, row), *[0.0] * (3 - len(row))]
     points[np.isnan(points).any(axis=1)] = np.nan
     return points
-
-
-def _numbered(count: int) -> tuple[str, ...]:
-    return tuple(str(i + 1) for i in range(count))
 
 
 def _read_json(text: str, name: str) -> list[LandmarkSet]:
@@ -200,14 +190,14 @@ def _space(word: object, name: str) -> str:
 
 
 def _write_json(sets: Sequence[LandmarkSet]) -> str:
-    one, types = sets[0], {kind: word for word, kind in _CURVE_TYPES.items()}
-    curves = find_curves(one.names)
-    lists = [("Fiducial", {}, fixed_rows(one.names))] if not curves or fixed_rows(one.names) else []
-    lists += [(types["loop" if c.closed else "curve"], {"name": c.name}, list(c.rows)) for c in curves]
+    one = sets[0]
+    fixed, curves = fixed_rows(one.names), find_curves(one.names)
+    lists = [({"type": "Fiducial"}, fixed)] if fixed or not curves else []
+    for curve in curves:
+        lists.append(({"type": "ClosedCurve" if curve.closed else "Curve", "name": curve.name}, list(curve.rows)))
     markups = []
-    for kind, told, rows in lists:
+    for told, rows in lists:
         markup = {
-            "type": kind,
             **told,
             "coordinateSystem": one.space or LPS,
             "coordinateUnits": "mm",
@@ -347,7 +337,7 @@ def _write_pts(sets: Sequence[LandmarkSet]) -> str:
 def _read_particles(text: str, name: str) -> list[LandmarkSet]:
     """ShapeWorks: a point "x y z" a line."""
     rows = [line.split() for line in text.splitlines() if line.strip()]
-    return [LandmarkSet(_numbered(len(rows)), _points(rows, name))]
+    return [LandmarkSet(tuple(str(i + 1) for i in range(len(rows))), _points(rows, name))]
 
 
 def _write_particles(sets: Sequence[LandmarkSet]) -> str:
@@ -402,7 +392,7 @@ def _long(titles: list[str], rows: list[list[str]], name: str) -> list[LandmarkS
         groups.setdefault("" if owner is None else row[owner], []).append(row)
     sets = []
     for specimen, own in groups.items():
-        names = _numbered(len(own)) if label is None else tuple(row[label] for row in own)
+        names = tuple(str(i) if label is None else row[label] for i, row in enumerate(own, 1))
         cells = [[row[i] for i in columns] for row in own]
         if spatial:
             sets.append(LandmarkSet(names, _points(cells, name), specimen))

@@ -13,7 +13,7 @@ from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_values, write_values
-from kfmaps.io.landmark_files import check_landmark_format, mesh_space
+from kfmaps.io.landmark_files import landmark_format, mesh_space
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
 from kfmaps.io.provenance import mesh_path, read_shape
 from kfmaps.io.transfer import Counterparts, find_counterparts, precise_points, transfer_back, transfer_by_functions
@@ -54,7 +54,7 @@ def transfer(
         raise refuse("--products", "values of the source", with_it, "leave one of them out")
     found = load_map(map)
     if points:
-        check_landmark_format(output, "output")
+        landmark_format(output, "output")
         _points(found, map, values, output, back, (source, target), force)
     else:
         write_values(output, _carried(found, map, values, (source, target), back, products, lost), force)
