@@ -29,7 +29,7 @@ from kfmaps.batch.transfer_landmarks import (
     template_pairs,
 )
 from kfmaps.batch.work import map_path
-from kfmaps.cli.commands._landmarks_transfer import _describe_study
+from kfmaps.cli.commands.landmarks import _describe_study
 from kfmaps.collection.semilandmarks import bending_energy_matrix
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
