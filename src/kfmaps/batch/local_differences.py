@@ -51,10 +51,10 @@ def local_differences(
     faces = target.faces[known[target.faces].all(axis=1)]
     images, tree = point_positions(place, source)[faces], KDTree(points)
     own, other = _edge_products(target.vertices[faces]), _edge_products(images)
-    size = np.sqrt(_determinant(own))
+    size, other_size = (np.sqrt(np.maximum(a * c - b * b, 0.0)) for a, b, c in (own, other))
     with np.errstate(divide="ignore", invalid="ignore"):
-        mixed = own[:, 0] * other[:, 2] - 2 * own[:, 1] * other[:, 1] + own[:, 2] * other[:, 0]
-        stretch = np.nan_to_num(mixed / (2 * size * np.sqrt(_determinant(other))), nan=np.inf)
+        mixed = own[0] * other[2] - 2 * own[1] * other[1] + own[2] * other[0]
+        stretch = np.nan_to_num(mixed / (2 * size * other_size), nan=np.inf)
     at = tree.query(images.mean(axis=1))[1]
     sources = source.faces[common[source.faces].all(axis=1)]
     whole = face_areas(Mesh(source.vertices, sources))
@@ -94,13 +94,9 @@ def write_local_differences(
 
 
 def _edge_products(corners: np.ndarray) -> np.ndarray:
-    """Products of two edges of triangles (f, 3, 3), (f, 3): a·a, a·b, b·b."""
+    """Products of two edges of triangles (f, 3, 3), (3, f): a·a, a·b, b·b."""
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return np.stack([(a * a).sum(axis=1), (a * b).sum(axis=1), (b * b).sum(axis=1)], axis=1)
-
-
-def _determinant(products: np.ndarray) -> np.ndarray:
-    return np.maximum(products[:, 0] * products[:, 2] - products[:, 1] ** 2, 0.0)
+    return np.stack([(a * a).sum(axis=1), (a * b).sum(axis=1), (b * b).sum(axis=1)])
 
 
 def _weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
