@@ -21,9 +21,10 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.batch.consistent import CONSISTENT, make_consistent, map_in_use
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan, graph_pairs, make_plan
 from kfmaps.batch.results import Result, read_result, result_path
-from kfmaps.batch.run import _write_outputs, run_batch
+from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.io import load_map, save_map
@@ -142,7 +143,7 @@ def test_specimens_are_told_of(run: tuple[Plan, list[Result]]) -> None:
     assert abs(np.corrcoef(bend, np.arange(5))[0, 1]) > 0.9  # each pose bends the shape a little more
     distances = {(r["shape"], r["other"]): float(r["area"]) for r in rows(plan.folder / CONSISTENT / "distances.csv")}
     assert distances["b0", "b1"] < distances["b0", "b4"]
-    _write_outputs(plan, list(found.results), "c", 1, found)
+    write_page(plan, list(found.results), "c", 1, found)
     page = (plan.folder / "summary.html").read_text(encoding="utf-8")
     assert "composition through" in page
     assert "How the shapes differ" in page

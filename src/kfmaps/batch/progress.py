@@ -65,17 +65,17 @@ Log = Callable[..., None]
 
 @dataclass
 class WorkLeft:
-    """What is left of one kind of work, and how long it takes.
+    """The pairs that are left, and how long they take.
 
-    A piece is taken to last in proportion to its size and a fixed part, and each worker to take the next that waits.
+    A pair is taken to last in proportion to its size and a fixed part, and each worker to take the next that waits.
     One that is under way lasts for half its time at least: it may be slower than those that have finished.
 
     Attributes
     ----------
     sizes : dict of int to float
-        Mean number of vertices of each piece that is left, in the order in which they are begun.
+        Mean number of vertices of each pair that is left, in the order in which they are begun.
     before : list of (size, seconds)
-        Measured by earlier runs; counts until a piece has finished.
+        Measured by earlier runs; counts until a pair has finished.
     finished : list of (size, seconds)
     """
 
@@ -85,11 +85,11 @@ class WorkLeft:
 
     @property
     def measured(self) -> list[tuple[float, float]]:
-        """The pieces that the estimate rests on."""
+        """The pairs that the estimate rests on."""
         return self.finished or self.before
 
     def end(self, number: int, seconds: float | None = None) -> None:
-        """Note that a piece has ended, and after how many seconds; one without is not measured."""
+        """Note that a pair has ended, and after how many seconds; one without is not measured."""
         size = self.sizes.pop(number)
         if seconds is not None:
             self.finished.append((size, seconds))
@@ -97,7 +97,7 @@ class WorkLeft:
     def remaining(self, begun: Mapping[int, float], workers: int) -> float | None:
         """Return the seconds that the rest takes; ``None`` where nothing has been measured.
 
-        ``begun``: seconds since each piece began that is under way; ``workers``: how many go on at once.
+        ``begun``: seconds since each pair began that is under way; ``workers``: how many go on at once.
         """
         if not self.sizes:
             return 0.0

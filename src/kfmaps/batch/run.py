@@ -100,7 +100,8 @@ def run_batch(
         better = {} if agreed is None else {r.pair: r for r in agreed.results}
         everything = [better.get(r.pair, r) for r in all_results(plan.folder, plan.spec.digest)]
         pool.progress("summary", 0, 1)
-        files = _write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
+        write_csv(plan.folder / TABLE, everything)
+        files = plan.folder / TABLE, write_page(plan, everything, name, 0 if interrupted else worst, agreed)
         pool.progress("summary", 1, 1)
     results = tuple(r for r in everything if r.pair in asked)
     failed = sum(r.status == "failed" for r in results)
@@ -121,10 +122,20 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
     shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
     prepared: dict[str, Prepared] = {}
     done: list[Result] = list(plan.results)
-    preparing, matching = _work_left(plan, shapes)
+    left = _work_left(plan)
 
     def tell(result: Result | None = None) -> None:
-        status = _status(plan, pool, len(shapes), preparing, matching, done)
+        begun = {number: time.monotonic() - since for number, since in pool.begun.items()}
+        status = RunStatus(
+            shapes_done=len(prepared),
+            shapes=len(shapes),
+            pairs_done=len(done),
+            failed=sum(r.status == "failed" for r in done),
+            pairs=len(plan.tasks),
+            workers=pool.n_threads,
+            remaining=left.remaining(begun, pool.n_threads) if len(prepared) == len(shapes) else None,
+            measured=len(left.measured),
+        )
         if result is not None:
             values = {name: getattr(result, name) for name in _LOGGED} | {"seconds": result.seconds.get("total")}
             counts = {"finished": status.pairs_done, "pairs": status.pairs, "remaining": status.remaining}
@@ -138,9 +149,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
             prepared[task.entry] = (
                 value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
             )
-            reason = prepared[task.entry].reason
-            preparing.end(number, None if reason else prepared[task.entry].seconds)
-            if reason:
+            if reason := prepared[task.entry].reason:
                 told = f"shape {task.name} could not be prepared: {reason}"
                 log("shape failed", told, shape=task.name, reason=reason)
             tell()
@@ -149,7 +158,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
     with closing(pool.imap(_match, jobs, label=label, n_begun=n_begun)) as values:
         for number, value in values:
             result = record_failure(plan.todo[number], error_text(value)) if isinstance(value, Exception) else value
-            matching.end(number, result.seconds["total"] if result.status == "done" else None)
+            left.end(number, result.seconds["total"] if result.status == "done" else None)
             done.append(result)
             tell(result)
             yield result
@@ -163,14 +172,13 @@ def _attempts(task: ShapeTask | PairTask) -> int:
     return attempts(Path(task.folder), task.key)
 
 
-def _work_left(plan: Plan, shapes: list[ShapeTask]) -> tuple[WorkLeft, WorkLeft]:
-    """Return the ``shapes`` to prepare and the pairs to match with their sizes, and what earlier runs measured."""
+def _work_left(plan: Plan) -> WorkLeft:
+    """Return the pairs to match with their sizes, and what earlier runs measured."""
     entries = {t.entry: t for task in plan.tasks for t in (task.source, task.target)}
     vertices = {entry: _vertices(task) for entry, task in entries.items()}
     sizes = {task.pair: (vertices[task.source.entry] + vertices[task.target.entry]) / 2 for task in plan.tasks}
-    todo = (sizes[task.pair] for task in plan.todo)
     before = [(sizes[r.pair], r.seconds["total"]) for r in plan.results if r.status == "done"]
-    return WorkLeft(dict(enumerate(vertices[task.entry] for task in shapes))), WorkLeft(dict(enumerate(todo)), before)
+    return WorkLeft({number: sizes[task.pair] for number, task in enumerate(plan.todo)}, before)
 
 
 def _vertices(task: ShapeTask) -> float:
@@ -179,27 +187,6 @@ def _vertices(task: ShapeTask) -> float:
         return Path(task.path).stat().st_size / _BYTES
     except OSError:
         return 0.0
-
-
-def _status(
-    plan: Plan, pool: WorkerPool, shapes: int, preparing: WorkLeft, matching: WorkLeft, done: list[Result]
-) -> RunStatus:
-    now = time.monotonic()
-    begun = {number: now - since for number, since in pool.begun.items()}
-    under_way = (begun, {}) if preparing.sizes else ({}, begun)
-    first, second = (
-        work.remaining(some, pool.n_threads) for work, some in zip((preparing, matching), under_way, strict=True)
-    )
-    return RunStatus(
-        shapes_done=shapes - len(preparing.sizes),
-        shapes=shapes,
-        pairs_done=len(done),
-        failed=sum(r.status == "failed" for r in done),
-        pairs=len(plan.tasks),
-        workers=pool.n_threads,
-        remaining=None if first is None or second is None else first + second,
-        measured=len(matching.measured),
-    )
 
 
 def _check_workers(plan: Plan, pool: WorkerPool) -> None:
@@ -229,14 +216,6 @@ def _seen(path: str) -> tuple[str, str]:
         return kfmaps.__version__, json.loads(Path(path).read_text(encoding="utf-8"))["digest"]
     except (OSError, ValueError, KeyError):
         return kfmaps.__version__, ""
-
-
-def _write_outputs(
-    plan: Plan, results: list[Result], name: str, worst: int, consistent: ConsistentResult | None = None
-) -> tuple[Path, ...]:
-    """Write the tables and the summary anew from the ``results``; their paths."""
-    write_csv(plan.folder / TABLE, results)
-    return plan.folder / TABLE, write_page(plan, results, name, worst, consistent)
 
 
 @contextmanager

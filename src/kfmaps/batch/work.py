@@ -65,10 +65,9 @@ class ShapeTask:
 
 @dataclass(frozen=True)
 class Prepared:
-    """What came of a :class:`ShapeTask`: its seconds (0 from the cache), why it failed, warnings about the mesh."""
+    """What came of a :class:`ShapeTask`: why it failed, and warnings about the mesh."""
 
     name: str
-    seconds: float = 0.0
     reason: str = ""
     notes: tuple[str, ...] = ()
 
@@ -130,13 +129,12 @@ def prepare_shape(task: ShapeTask) -> Prepared:
     entry = Path(task.entry)
     if load_shape(entry, task.name) is not None:
         return Prepared(task.name)
-    start = time.perf_counter()
     begin(Path(task.folder), task.key)
     with capture_errors() as caught, one_blas_thread():
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file as it was when the run began", "a changed one", "run the command again")
         save_record(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
-    return Prepared(task.name, time.perf_counter() - start, caught.reason, tuple(caught.notes))
+    return Prepared(task.name, caught.reason, tuple(caught.notes))
 
 
 def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
