@@ -295,8 +295,9 @@ def starts(data: Data, names: list[str]) -> None:
         model = learn.Model(
             config, [lesson(*p) for p in drawn(range(2), 8, 1)], ["metric", "gamma", "terms"], rank=rank
         )
-        solver, judged = CG(3e-4, 300), [lesson(*p) for p in drawn(range(2, 4), 6, 2)]
-        errors = [100 * learn.point_error(model, one, solver=solver, operator_rtol=0.05) for one in judged]
+        options = learn.TrainingOptions(solver=CG(3e-4, 300), operator_rtol=0.05)
+        judged = [lesson(*p) for p in drawn(range(2, 4), 6, 2)]
+        errors = [100 * learn.point_error(model, one, options) for one in judged]
         print(f"| {name} | {np.mean(errors):.2f} | {', '.join(f'{e:.2f}' for e in errors)} |", flush=True)
 
 

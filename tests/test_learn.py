@@ -126,9 +126,10 @@ def test_the_map_is_that_of_a_match(formulation, shapes):
 @pytest.mark.parametrize("parts", [("gamma", "ard", "terms"), ("metric", "mixture"), ("network",)], ids="+".join)
 def test_gradient_of_a_loss_is_its_difference(parts, lessons):
     model = shaken(Model(CONFIG, lessons, parts, rank=3), 0.1)
+    options = replace(QUICK, losses={"supervised": 1.0, "orthogonality": 0.3}, solver=EXACT)
 
     def loss():
-        return pair_loss(model, lessons[0], {"supervised": 1.0, "orthogonality": 0.3}, solver=EXACT)
+        return pair_loss(model, lessons[0], options)
 
     loss().backward()
     draw, step = np.random.default_rng(1), 1e-5
@@ -281,7 +282,7 @@ def test_a_number_that_is_none_stops_and_keeps_the_best(rate, lessons):
 @pytest.mark.parametrize("name", LOSSES)
 def test_every_loss_has_a_gradient(name, lessons):
     model = Model(CONFIG, lessons, ["gamma", "terms"])
-    value = pair_loss(model, lessons[0], {name: 1.0}, solver=CG(1e-8, 300))
+    value = pair_loss(model, lessons[0], replace(QUICK, losses={name: 1.0}))
     value.backward()
     gradient = model.get_parameter("log_terms").grad
     assert float(value.detach()) > 0
@@ -295,9 +296,9 @@ def test_what_needs_the_truth_says_so(shapes):
     model = Model(CONFIG, [unknown], ["gamma"])
     for name in ("geodesic", "supervised"):
         with pytest.raises(InvalidInput, match=f"loss {name}"):
-            pair_loss(model, unknown, {name: 1.0}, solver=EXACT)
+            pair_loss(model, unknown, replace(QUICK, losses={name: 1.0}))
     with pytest.raises(InvalidInput, match="held-out pairs"):
-        point_error(model, unknown, solver=EXACT)
+        point_error(model, unknown, QUICK)
     state = learn(model, [unknown], [unknown], replace(QUICK, losses={"orthogonality": 1.0}, epochs=1))
     assert state.history[-1].loss > 0
 

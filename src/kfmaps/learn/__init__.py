@@ -12,11 +12,11 @@ from kfmaps._arrays import MissingDependency
 
 try:
     from kfmaps.learn.energy import Minimum, differentiable_minimum, nystrom_features, pair_energy
-    from kfmaps.learn.losses import LOSSES, functional_map, pair_loss, point_error
+    from kfmaps.learn.losses import LOSSES, TrainingOptions, functional_map, pair_loss, point_error
     from kfmaps.learn.model import PARTS, Model
     from kfmaps.learn.pairs import PairTruth, TrainingPair, training_pair
     from kfmaps.learn.state import Epoch, State, learning_figure, load, save
-    from kfmaps.learn.training import TrainingOptions, learn
+    from kfmaps.learn.training import learn
 except ModuleNotFoundError as error:
     if error.name != "torch":
         raise

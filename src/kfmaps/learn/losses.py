@@ -5,13 +5,15 @@ All are means of squares or of distances, without a unit, about 1 for a map that
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import torch
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.fmap.nearest import nearest
 from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import Basis
@@ -32,10 +34,64 @@ LOSSES = {
 _MAX_COUPLED = (400, 1000)  # largest number of target and source points of the coupling loss
 
 
+@dataclass(frozen=True)
+class TrainingOptions:
+    """How to learn.
+
+    Attributes
+    ----------
+    losses : mapping of str to float
+        Weights of :data:`kfmaps.learn.LOSSES`.
+    epochs : int
+        Largest number of passes through all pairs.
+    batch : int
+        Number of pairs whose gradients are averaged for one step.
+    rate : float
+        Adam's, which falls to zero over the epochs as half a cosine. Most parameters are logarithms, so 0.1 changes a
+        weight by about a tenth a step.
+    patience : int
+        Number of epochs without a better mean over the held-out pairs, after which learning stops.
+    temperature : float
+        Of soft point maps, see :func:`soft_point_map`.
+    seconds : float
+        No further epoch begins that would, at the pace so far, end later.
+    solver : CG
+        For maps and derivatives.
+    operator_rtol : float
+        Part of the features' weight that commutativity may leave out; 0 makes the gradient exact and slow.
+    seed : int
+        For the order of the pairs and the points of the coupling loss.
+    """
+
+    losses: Mapping[str, float] = field(default_factory=lambda: {"geodesic": 1.0})
+    epochs: int = 5
+    batch: int = 2
+    rate: float = 0.1
+    patience: int = 3
+    temperature: float = 0.03
+    seconds: float = math.inf
+    solver: CG = field(default_factory=lambda: CG(rtol=1e-4, max_iter=500))
+    operator_rtol: float = 1e-3
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        unknown = sorted(set(self.losses) - set(LOSSES))
+        if unknown or not self.losses:
+            raise refuse("losses", "some of " + ", ".join(LOSSES), ", ".join(unknown) or "none", "choose among them")
+        for name, weight in self.losses.items():
+            check_positive(weight, f"weight of the loss {name}")
+        for name in ("epochs", "batch", "patience"):
+            check_count(getattr(self, name), name)
+        check_positive(self.rate, "rate", "0.1 is usual")
+        check_positive(self.temperature, "temperature", "0.03 is usual")
+        if not self.seconds > 0:
+            raise refuse("seconds", "a number above zero", repr(self.seconds), "leave it out for no limit")
+
+
 def functional_map(model: Model, pair: TrainingPair, solver: CG, operator_rtol: float = 0.0) -> torch.Tensor:
     """Return the map ``C (k, k)`` that minimises the model's energy of a ``pair``, differentiable in its parameters.
 
-    ``solver`` and ``operator_rtol`` are those of :class:`~kfmaps.learn.training.TrainingOptions`.
+    ``solver`` and ``operator_rtol`` are those of :class:`TrainingOptions`.
     """
     transformed = [model.transform(D) for D in (pair.descriptors_s, pair.descriptors_t, pair.samples)]
     W_s, W_t = nystrom_features(model.kernel_matrix, *transformed)
@@ -45,60 +101,45 @@ def functional_map(model: Model, pair: TrainingPair, solver: CG, operator_rtol: 
 
 
 def pair_loss(
-    model: Model,
-    pair: TrainingPair,
-    weights: Mapping[str, float],
-    *,
-    solver: CG,
-    operator_rtol: float = 0.0,
-    temperature: float = 0.03,
-    rng: np.random.Generator | None = None,
+    model: Model, pair: TrainingPair, options: TrainingOptions, rng: np.random.Generator | None = None
 ) -> torch.Tensor:
-    """Return the weighted sum of losses of a ``pair``.
+    """Return the weighted sum of the losses of a ``pair`` that ``options`` name.
 
-    ``weights`` of :data:`LOSSES`, ``solver``, ``operator_rtol`` and ``temperature`` are those of
-    :class:`~kfmaps.learn.training.TrainingOptions`; ``rng`` draws the points of the coupling loss.
+    ``rng`` draws the points of the coupling loss.
 
     Raises
     ------
     InvalidInput
-        When a loss has no such name, or needs the truth of a pair that has none.
+        When a loss needs the truth of a pair that has none.
     """
-    check_losses(weights)
-    C = functional_map(model, pair, solver, operator_rtol)
+    solver, rtol, temperature = options.solver, options.operator_rtol, options.temperature
+    C = functional_map(model, pair, solver, rtol)
     source = pair.source.functions
     values: dict[str, Callable[[Any], torch.Tensor]] = {
         "geodesic": lambda truth: geodesic_loss(C, source, truth.functions_t, truth.distances.to(C.dtype), temperature),
         "supervised": lambda truth: supervised_loss(C, truth.functional_map),
         "orthogonality": lambda _: orthogonality_loss(C),
-        "cycle": lambda _: cycle_loss(C, functional_map(model, pair.swapped(), solver, operator_rtol)),
+        "cycle": lambda _: cycle_loss(C, functional_map(model, pair.swapped(), solver, rtol)),
         "commutativity": lambda _: commutativity_loss(C, pair.source, pair.target),
         "coupling": lambda _: _coupling(model, pair, C, temperature, rng or np.random.default_rng(0)),
     }
     total = torch.zeros((), dtype=C.dtype)
-    for name, weight in weights.items():
+    for name, weight in options.losses.items():
         if name in ("geodesic", "supervised") and pair.truth is None:
             raise refuse(f"loss {name}", "pairs with a truth", f"{pair.name} without one", "take another loss")
         total = total + weight * values[name](pair.truth)
     return total
 
 
-def check_losses(weights: Mapping[str, float]) -> None:
-    """Refuse ``weights`` without losses, and names that are not among :data:`LOSSES`."""
-    unknown = sorted(set(weights) - set(LOSSES))
-    if unknown or not weights:
-        raise refuse("losses", "some of " + ", ".join(LOSSES), ", ".join(unknown) or "none", "choose among them")
-
-
-def point_error(model: Model, pair: TrainingPair, *, solver: CG, operator_rtol: float = 0.0) -> float:
+def point_error(model: Model, pair: TrainingPair, options: TrainingOptions) -> float:
     """Return the mean geodesic error of the raw point map, in √area, at the known correspondences of a ``pair``.
 
-    ``solver`` and ``operator_rtol`` are those of :class:`~kfmaps.learn.training.TrainingOptions`.
+    Of ``options`` only the solver and the truncation of operators count.
     """
     if pair.truth is None:
         raise refuse("held-out pairs", "pairs with a truth", f"{pair.name} without one", "judge by the loss")
     with torch.no_grad():
-        C = functional_map(model, pair, solver, operator_rtol)
+        C = functional_map(model, pair, options.solver, options.operator_rtol)
         images = (pair.source.functions @ C.T).numpy()
     points = nearest(pair.truth.functions_t.numpy(), images)
     return float(pair.truth.distances.numpy()[np.arange(len(points)), points].mean())

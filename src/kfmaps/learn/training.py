@@ -4,74 +4,21 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import torch
 
-from kfmaps._arrays import InvalidInput, NotConverged, check_count, check_positive, refuse
-from kfmaps.fmap.solvers import CG
-from kfmaps.learn.losses import check_losses, pair_loss, point_error
+from kfmaps._arrays import InvalidInput, NotConverged, refuse
+from kfmaps.learn.losses import TrainingOptions, pair_loss, point_error
 from kfmaps.learn.model import Model
 from kfmaps.learn.pairs import TrainingPair
 from kfmaps.learn.state import Epoch, State
 
 _MATRIX_RATE = 0.3
 """Part of the rate at which entries of a metric or network change, in units of their root mean square."""
-
-
-@dataclass(frozen=True)
-class TrainingOptions:
-    """How to learn.
-
-    Attributes
-    ----------
-    losses : mapping of str to float
-        Weights of :data:`kfmaps.learn.LOSSES`.
-    epochs : int
-        Largest number of passes through all pairs.
-    batch : int
-        Number of pairs whose gradients are averaged for one step.
-    rate : float
-        Adam's, which falls to zero over the epochs as half a cosine. Most parameters are logarithms, so 0.1 changes a
-        weight by about a tenth a step.
-    patience : int
-        Number of epochs without a better mean over the held-out pairs, after which learning stops.
-    temperature : float
-        Of soft point maps, see :func:`kfmaps.learn.losses.soft_point_map`.
-    seconds : float
-        No further epoch begins that would, at the pace so far, end later.
-    solver : CG
-        For maps and derivatives.
-    operator_rtol : float
-        Part of the features' weight that commutativity may leave out; 0 makes the gradient exact and slow.
-    seed : int
-        For the order of the pairs and the points of the coupling loss.
-    """
-
-    losses: Mapping[str, float] = field(default_factory=lambda: {"geodesic": 1.0})
-    epochs: int = 5
-    batch: int = 2
-    rate: float = 0.1
-    patience: int = 3
-    temperature: float = 0.03
-    seconds: float = math.inf
-    solver: CG = field(default_factory=lambda: CG(rtol=1e-4, max_iter=500))
-    operator_rtol: float = 1e-3
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        check_losses(self.losses)
-        for name, weight in self.losses.items():
-            check_positive(weight, f"weight of the loss {name}")
-        for name in ("epochs", "batch", "patience"):
-            check_count(getattr(self, name), name)
-        check_positive(self.rate, "rate", "0.1 is usual")
-        check_positive(self.temperature, "temperature", "0.03 is usual")
-        if not self.seconds > 0:
-            raise refuse("seconds", "a number above zero", repr(self.seconds), "leave it out for no limit")
 
 
 def learn(
@@ -192,7 +139,7 @@ class _Run:
         total = 0.0
         for pair in pairs:
             try:
-                loss = self.loss(pair, rng)
+                loss = pair_loss(self.model, pair, self.options, rng)
                 (loss / len(pairs)).backward()
             except (NotConverged, InvalidInput, RuntimeError) as error:
                 raise _stopped(str(error).splitlines()[0], pair.name, state) from error
@@ -200,12 +147,6 @@ class _Run:
             _check_finite(self.model, pair.name, total, state)
         self.optimizer.step()
         return total
-
-    def loss(self, pair: TrainingPair, rng: np.random.Generator) -> torch.Tensor:
-        """Return the weighted losses of a pair."""
-        o, model = self.options, self.model
-        rtol, heat = o.operator_rtol, o.temperature
-        return pair_loss(model, pair, o.losses, solver=o.solver, operator_rtol=rtol, temperature=heat, rng=rng)
 
     def judge(self, loss: float) -> float:
         """Return the mean over the held-out pairs; ``loss`` where there are none."""
@@ -218,11 +159,10 @@ class _Run:
         for i, pair in enumerate(pairs):
             self.progress(stage, i / len(pairs))
             if errors and pair.truth is not None:
-                solver, rtol = self.options.solver, self.options.operator_rtol
-                values.append(point_error(self.model, pair, solver=solver, operator_rtol=rtol))
+                values.append(point_error(self.model, pair, self.options))
             else:
                 with torch.no_grad():
-                    values.append(float(self.loss(pair, rng)))
+                    values.append(float(pair_loss(self.model, pair, self.options, rng)))
         self.progress(stage, 1.0)
         return float(np.mean(values))
 
