@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -73,20 +73,18 @@ def learn(
     return state
 
 
+@dataclass
 class _Run:
     """The loop of one call of :func:`learn`."""
 
-    def __init__(
-        self,
-        model: Model,
-        pairs: Sequence[TrainingPair],
-        held_out: Sequence[TrainingPair],
-        options: TrainingOptions,
-        progress: Callable[[str, float], None],
-    ) -> None:
-        self.model, self.pairs, self.held_out = model, pairs, held_out
-        self.options, self.progress = options, progress
-        self.optimizer = torch.optim.Adam(_groups(model))
+    model: Model
+    pairs: Sequence[TrainingPair]
+    held_out: Sequence[TrainingPair]
+    options: TrainingOptions
+    progress: Callable[[str, float], None]
+
+    def __post_init__(self) -> None:
+        self.optimizer = torch.optim.Adam(_groups(self.model))
         self.begun = time.perf_counter()
 
     def begin(self, state: State | None) -> State:
@@ -122,7 +120,7 @@ class _Run:
         try:
             judged = self.judge(loss)
         except (NotConverged, InvalidInput, RuntimeError) as error:
-            raise _stopped(str(error).splitlines()[0], "held out", state) from error
+            raise _stopped(error, "held out", state) from error
         last = Epoch(number, loss, judged, time.perf_counter() - self.begun)
         now = self.parameters()
         best = now if judged < state.best_epoch.held_out else state.best
@@ -141,10 +139,10 @@ class _Run:
             try:
                 loss = pair_loss(self.model, pair, self.options, rng)
                 (loss / len(pairs)).backward()
+                total += float(loss.detach())
+                _check_finite(self.model, total)
             except (NotConverged, InvalidInput, RuntimeError) as error:
-                raise _stopped(str(error).splitlines()[0], pair.name, state) from error
-            total += float(loss.detach())
-            _check_finite(self.model, pair.name, total, state)
+                raise _stopped(error, pair.name, state) from error
         self.optimizer.step()
         return total
 
@@ -182,15 +180,15 @@ def _groups(model: Model) -> list[dict[str, Any]]:
     return groups
 
 
-def _check_finite(model: Model, name: str, loss: float, state: State) -> None:
-    gradients = [(key, p.grad) for key, p in model.named_parameters() if p.grad is not None]
-    bad = [key for key, gradient in gradients if not bool(torch.isfinite(gradient).all())]
+def _check_finite(model: Model, loss: float) -> None:
+    bad = [name for name, p in model.named_parameters() if p.grad is not None and not p.grad.isfinite().all()]
     if not np.isfinite(loss) or bad:
         where = f"the gradient of {', '.join(bad)}" if np.isfinite(loss) else "the loss"
-        raise _stopped(f"NaN or infinity in {where}", name, state)
+        raise NotConverged(f"NaN or infinity in {where}")
 
 
-def _stopped(got: str, name: str, state: State) -> NotConverged:
+def _stopped(error: Exception, name: str, state: State) -> NotConverged:
+    got = str(error).splitlines()[0]
     return NotConverged(
         f"learning: expected finite numbers, got {got} at the pair {name}, epoch {state.history[-1].number + 1}. "
         f"The state of epoch {state.best_epoch.number}, the best so far, is kept. Learn again with a lower rate."
