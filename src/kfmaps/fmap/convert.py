@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
@@ -11,6 +10,7 @@ from kfmaps._arrays import Array, blocks, is_numpy, namespace, refuse, take, to_
 from kfmaps.fmap.approximate_nearest import N_PROBE
 from kfmaps.fmap.nearest import nearest, searches_cells
 from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
 __all__ = ["check_point_map", "nearest", "nearest_reached", "to_functional", "to_points"]
@@ -128,13 +128,7 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
         return np.arange(n)
     nearest = np.full(n, -1, dtype=np.int64)
     if len(source.faces):
-        ends = source.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        ends = np.unique(np.sort(ends, axis=1), axis=0)
-        ends = ends[ends[:, 0] != ends[:, 1]]
-        length = np.linalg.norm(source.vertices[ends[:, 0]] - source.vertices[ends[:, 1]], axis=1)
-        # A sparse graph reads 0 as "no edge": coincident vertices get the least length instead.
-        graph = coo_array((np.maximum(length, 1e-300), (ends[:, 0], ends[:, 1])), shape=(n, n)).tocsr()
-        result = dijkstra(graph, directed=False, indices=reached, min_only=True, return_predecessors=True)
+        result = dijkstra(geodesic_graph(source, 0), indices=reached, min_only=True, return_predecessors=True)
         found = np.isfinite(result[0])
         nearest[found] = result[2][found]
     nearest[reached] = reached
