@@ -11,7 +11,7 @@ from kfmaps._records import short_repr
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.closest_points import closest_points
-from kfmaps.geometry.connectivity import component_labels, half_edges
+from kfmaps.geometry.connectivity import boundary_edges, component_labels, half_edges_by_edge
 from kfmaps.geometry.mesh import Mesh, face_areas
 
 
@@ -73,14 +73,6 @@ def posed_pair(
     return ExamplePair(name, source, target, truth(points_t), on_source.faces, on_source.weights, mirrored)
 
 
-def _components(faces: np.ndarray) -> np.ndarray:
-    """Return the component of each face, (f,); faces that share an edge are connected."""
-    edges = np.sort(half_edges(faces), axis=1)
-    _, edge = np.unique(edges, axis=0, return_inverse=True)
-    rows = np.tile(np.arange(len(faces)), 3)
-    return component_labels(len(faces) + edge.max() + 1, rows, len(faces) + edge.ravel())[1][: len(faces)]
-
-
 def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:
     """Return the largest connected part whose vertices are all in ``keep (n,)`` bool, and its vertices' old numbers.
 
@@ -89,12 +81,11 @@ def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:
     """
     faces = mesh.faces[keep[mesh.faces].all(axis=1)]
     while True:
-        component = _components(faces)
+        order, start, sharing = half_edges_by_edge(faces, len(keep))
+        shared = start[sharing == 2]
+        component = component_labels(len(faces), order[shared] // 3, order[shared + 1] // 3)[1]
         faces = faces[component == np.bincount(component, face_areas(Mesh(mesh.vertices, faces))).argmax()]
-        forth = half_edges(faces)
-        code, back = forth @ [len(keep), 1], forth @ [1, len(keep)]
-        rim = np.bincount(forth[~np.isin(code, back), 0], minlength=len(keep))
-        touching = rim > 1
+        touching = np.bincount(boundary_edges(faces, len(keep)).ravel(), minlength=len(keep)) > 2
         if not touching.any():
             break
         faces = faces[~touching[faces].any(axis=1)]
