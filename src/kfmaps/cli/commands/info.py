@@ -58,84 +58,64 @@ def description(path: str | Path, content: MeshFile) -> JsonObject:
     }
 
 
-def _rows(facts: JsonObject) -> list[tuple[str, str]]:
-    """Names and values of the table."""
+def _cells(facts: JsonObject) -> dict[str, str]:
+    """What the table says of a file, by the name of the row or column."""
     counts = facts["topology"]
     extra = [k.replace("_", " ") for k in ("colors", "texture_coordinates") if facts[k]]
-    rows = [
-        ("vertices", f"{facts['vertices']:,}"),
-        ("faces", f"{facts['faces']:,}" if counts else "none (a point cloud)"),
-        ("extent", " × ".join(f"{side:.6g}" for side in facts["extent"])),
-        ("also in the file", ", ".join(extra) or "nothing"),
-    ]
+    cells = {
+        "vertices": f"{facts['vertices']:,}",
+        "faces": f"{facts['faces']:,}" if counts else "none (a point cloud)",
+        "extent": " × ".join(f"{side:.6g}" for side in facts["extent"]),
+        "also in the file": ", ".join(extra) or "nothing",
+    }
     if counts is None:
-        return rows
-    return [
-        *rows[:2],
-        ("area", f"{facts['area']:.6g}"),
-        *rows[2:],
-        ("components", f"{counts['components']:,}"),
-        ("boundary loops", f"{counts['boundary_loops']:,}" if counts["boundary_loops"] else "none (closed)"),
-        ("genus", "not defined (no orientable manifold)" if counts["genus"] is None else str(counts["genus"])),
-        ("Euler characteristic", str(counts["euler_characteristic"])),
-        ("defects", "\n".join(_defects(counts)) or "none"),
-    ]
+        return cells
+    return cells | {
+        "area": f"{facts['area']:.6g}",
+        "components": f"{counts['components']:,}",
+        "boundary loops": f"{counts['boundary_loops']:,}" if counts["boundary_loops"] else "none (closed)",
+        "genus": "not defined (no orientable manifold)" if counts["genus"] is None else str(counts["genus"]),
+        "Euler characteristic": str(counts["euler_characteristic"]),
+        "defects": "\n".join(f"{counts[k]:,} {k.replace('_', ' ')}" for k in _DEFECTS if counts[k]) or "none",
+    }
 
 
 def info(
     meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH")], json: Json = False
 ) -> None:
     """Show what is in files: vertices, faces, components, area, genus, defects."""
-    if len(meshes) == 1:
-        facts = _facts(meshes[0])
-        if json:
-            print_json(facts)
-        else:
-            table = Table(title=Text(shown(str(meshes[0]))), show_header=False)
-            for name, value in _rows(facts):
-                table.add_row(name, Text(value))
-            Terminal().print(table)
-        return
     refused, known = [], []
     for path in meshes:
         try:
-            known.append(_facts(path))
+            with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the table says it all
+                known.append(description(path, read_mesh_file(path)))
         except InvalidInput as error:
             refused.append(str(error))
     if json:
         for facts in known:
             print_json(facts)
     elif known:
-        Terminal().print(_overview(known))
+        Terminal().print(_table(known[0]) if len(meshes) == 1 else _overview(known))
     if refused:  # the others have been shown
         more = "" if len(refused) == 1 else f"; and {len(refused) - 1} more of the files cannot be read"
         raise InvalidInput(refused[0] + more)
 
 
-def _facts(path: Path) -> JsonObject:
-    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the table says it all
-        return description(path, read_mesh_file(path))
-
-
-def _overview(known: list[JsonObject]) -> Table:
-    """A row for each file."""
-    table = Table()
-    for name in ("file", "vertices", "faces", "area", "components", "genus", "defects"):
-        table.add_column(name, justify="left" if name in ("file", "defects") else "right", overflow="fold")
-    for facts in known:
-        sizes = f"{facts['vertices']:,}", f"{facts['faces']:,}"
-        counts = facts["topology"]
-        if counts is None:
-            table.add_row(Text(shown(facts["file"])), *sizes, "", "", "", "a point cloud")
-            continue
-        genus = "" if counts["genus"] is None else str(counts["genus"])
-        holes = [f"{counts['boundary_loops']:,} boundary loops"] if counts["boundary_loops"] else []
-        odd = "\n".join([*holes, *_defects(counts)]) or "none"
-        table.add_row(
-            Text(shown(facts["file"])), *sizes, f"{facts['area']:.6g}", f"{counts['components']:,}", genus, odd
-        )
+def _table(facts: JsonObject) -> Table:
+    """A row for each fact about one file."""
+    table = Table(title=Text(shown(facts["file"])), show_header=False)
+    for name, value in _cells(facts).items():
+        table.add_row(name, Text(value))
     return table
 
 
-def _defects(counts: JsonObject) -> list[str]:
-    return [f"{counts[k]:,} {k.replace('_', ' ')}" for k in _DEFECTS if counts[k]]
+def _overview(known: list[JsonObject]) -> Table:
+    """A row for each file, without what stands in brackets."""
+    columns = ("vertices", "faces", "area", "components", "genus", "defects")
+    table = Table()
+    for name in ("file", *columns):
+        table.add_column(name, justify="left" if name in ("file", "defects") else "right", overflow="fold")
+    for facts in known:
+        cells = _cells(facts)
+        table.add_row(Text(shown(facts["file"])), *(cells.get(name, "").partition(" (")[0] for name in columns))
+    return table
