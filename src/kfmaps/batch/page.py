@@ -40,7 +40,6 @@ from kfmaps.viz.result_pages import match_page
 
 PAGE = "summary.html"
 _PAGES = "pages"
-_TEXT_SIZE = 18.0  # letters in points: the pictures are shown at half their size
 _MAX_NAMED = 60  # shapes up to which their names stand in the chart of principal components
 _TEMPLATES = environment("kfmaps.batch")
 _TEMPLATES.filters |= {"percent": percent, "in_words": format_seconds}
@@ -271,7 +270,7 @@ def _picture(task: PairTask, limit: float, path: Path) -> bytes:
     """The PNG of a map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
     source, target, truth = _read_pair(task)
     with one_blas_thread():
-        return _png(render(load_map(path), source, target, truth=truth, limit=limit, text=_TEXT_SIZE, labels=False))
+        return _png(render(load_map(path), source, target, truth=truth, limit=limit, small=True))
 
 
 def _read_pair(task: PairTask) -> tuple[Mesh, Mesh, Truth | None]:

@@ -20,7 +20,7 @@ from kfmaps.viz.surfaces import draw_surface
 
 _PANEL = 3.4  # width of a panel in inches
 _BAR_PANEL = 4.2  # width in inches of a panel with its colour bar
-_EACH = "give one per target vertex"
+_SMALL = 1.8  # how much larger letters are in pictures that are shown small
 
 
 def match_figure(
@@ -34,8 +34,7 @@ def match_figure(
     title: str | None = None,
     view: View | None = None,
     target_view: View | None = None,
-    text: float = 10.0,
-    labels: bool = True,
+    small: bool = False,
 ) -> Figure:
     """Draw source and target side by side, the source's colours carried over by the map, and the error.
 
@@ -56,10 +55,8 @@ def match_figure(
         Of the source; by default :func:`automatic_view`.
     target_view : View, optional
         Of the target; by default from the same side as the source, as far as the map tells.
-    text : float
-        Size of letters in points; larger for pictures that are shown small.
-    labels : bool
-        Whether each panel is named below it; a caption elsewhere can do so instead.
+    small : bool
+        Whether the picture is shown small: with larger letters, and no name below each panel.
 
     Returns
     -------
@@ -81,13 +78,13 @@ def match_figure(
         ("target, coloured by the map", target, transfer(colors, target_to_source, source.faces, LOST_GREY), view_t),
     ]
     width, height = 2 * _PANEL, 4.4 + (0.4 if title else 0)
-    wide = max(text / 10, 1.0)
-    room = 0.42 * wide if labels else 0.08
+    wide = _SMALL if small else 1.0
+    room = 0.08 if small else 0.42
     shown, end = None, 0.0
     if errors is not None:
         given = np.asarray(errors, dtype=np.float64)
         given = np.where(carried < 0, 0.0, given) if given.shape == carried.shape else given
-        shown = check(given, "errors", shape=carried.shape, remedy=_EACH)
+        shown = check(given, "errors", shape=carried.shape, remedy="give one per target vertex")
         end = error_limit(shown[carried >= 0]) if limit is None else limit
         painted = np.where(carried[:, None] < 0, LOST_GREY, error_colors(np.where(carried < 0, 0.0, shown), end))
         panels.append(("error on the target", target, painted, view_t))
@@ -98,12 +95,12 @@ def match_figure(
     for i, (label, mesh, painted, seen) in enumerate(panels):
         left, middle = (_PANEL * i + 0.1) / width, _PANEL * (i + 0.5) / width
         draw_surface(figure.add_axes((left, bottom, (_PANEL - 0.2) / width, top - bottom)), mesh, painted, seen)
-        if labels:
-            figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=text)
+        if not small:
+            figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=10)
     if shown is not None:
         place = (1 - 0.8 * wide / width, bottom + 0.15 * (top - bottom), 0.12 / width, 0.7 * (top - bottom))
         beyond = shown[carried >= 0].max(initial=0.0) > end
-        add_error_bar(figure, place, end, f"geodesic error ({UNIT})", beyond=bool(beyond), text=text)
+        add_error_bar(figure, place, end, f"geodesic error ({UNIT})", beyond=bool(beyond), text=10 * wide)
     if title:
         figure.text(0.5, 1 - 0.12 / height, title, ha="center", va="top", color="black", fontsize=12)
     return figure
