@@ -22,8 +22,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.config import Config
 from kfmaps.fmap.precise import PointMap
 from kfmaps.io import check_map, load_map, save_map
-from kfmaps.io.map_summary import summarize_match
-from kfmaps.io.mapcontent import ARRAYS
+from kfmaps.io.mapcontent import ARRAYS, summarize_match
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.matching.result import SHAPE_FIELDS, Match
 from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile

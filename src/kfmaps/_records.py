@@ -88,50 +88,40 @@ class Setting:
 
     def check(self, value: object, label: str) -> None:
         """Raise :class:`InvalidInput`, beginning with ``label``, when the field cannot have ``value``."""
-        if (value is None and self.optional) or self._fits(value):
+        fits, wanted, remedy = self._judge(value)
+        if fits or (value is None and self.optional):
             return
-        remedy = "compare with `kfmaps config`"
-        if self.choices:
-            wanted, remedy = "one of " + ", ".join(self.choices), "choose one of them"
-        elif {int, float}.intersection(self.types):
-            span = self._span()
-            wanted = f"a {'whole ' if int in self.types else ''}number{span and f', {span}'}"
-        elif any(get_origin(hint) is tuple for hint in self.types):
-            wanted, remedy = "a tuple", f"write {self.name}=(...,)"
-        elif bool in self.types or str in self.types:
-            wanted = "true or false" if bool in self.types else "text"
-        else:
+        if not wanted:
             default = self.default() if callable(self.default) else self.default
             example = f"{type(default).__name__}()" if is_dataclass(default) else ""
             wanted = f"a record such as {example}" if example else "a record"
             remedy = f"write {self.name}={example}" if example else remedy
         raise refuse(label, wanted + (f", or {self.none}" if self.optional else ""), repr(value)[:80], remedy)
 
-    def _fits(self, value: object) -> bool:
+    def _judge(self, value: object) -> tuple[bool, str, str]:
+        """Whether ``value`` fits, what is expected, in words (none of a record), and what to do where it does not."""
+        remedy, types = "compare with `kfmaps config`", self.types
         if self.choices:
-            return isinstance(value, str) and value in self.choices
-        if bool in self.types or isinstance(value, bool):
-            return bool in self.types and isinstance(value, bool | np.bool_)
-        for plain, number in ((int, Integral), (float, Real)):
-            if plain in self.types:
-                return isinstance(value, number) and math.isfinite(value) and self._inside(float(value))
-        if str in self.types:
-            return isinstance(value, str)
-        return any(_is_a(value, hint) for hint in self.types)
+            fits = isinstance(value, str) and value in self.choices
+            return fits, "one of " + ", ".join(self.choices), "choose one of them"
+        if bool in types:
+            return isinstance(value, bool | np.bool_), "true or false", remedy
+        for plain, number, words in ((int, Integral, "a whole number"), (float, Real, "a number")):
+            if plain in types:
+                real = isinstance(value, number) and not isinstance(value, bool) and math.isfinite(value)
+                span = self._span()
+                return real and self._inside(float(value)), f"{words}{span and f', {span}'}", remedy
+        if str in types:
+            return isinstance(value, str), "text", remedy
+        if any(get_origin(hint) is tuple for hint in types):
+            return isinstance(value, tuple), "a tuple", f"write {self.name}=(...,)"
+        records = tuple(hint for hint in types if isinstance(hint, type) and is_dataclass(hint))
+        own = len(records) < len(types) and callable(value) and not isinstance(value, type)
+        return own or isinstance(value, records), "", remedy
 
     def _inside(self, value: float) -> bool:
         bounds = ((self.above, gt), (self.low, ge), (self.high, le), (self.below, lt))
         return all(bound is None or holds(value, bound) for bound, holds in bounds)
-
-
-def _is_a(value: object, hint: object) -> bool:
-    """Whether a value that is no plain one fits a type; a callable is one that is no class."""
-    origin = get_origin(hint)
-    if origin is tuple:
-        return isinstance(value, tuple)
-    if isinstance(hint, type) and is_dataclass(hint):
-        return isinstance(value, hint)
-    return callable(value) and not isinstance(value, type)
 
 
 def types_of(hint: object) -> tuple[Any, ...]:

@@ -17,7 +17,7 @@ from kfmaps.batch.run_spec import digest_of
 from kfmaps.config import Config
 from kfmaps.io import atomic_output
 from kfmaps.io.gltf import buffer_files
-from kfmaps.io.map_summary import plain_record, read_record
+from kfmaps.io.mapcontent import plain_record, read_record
 from kfmaps.io.text import read_bytes
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.search import scoring_samples

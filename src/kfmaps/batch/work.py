@@ -29,7 +29,7 @@ from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import vertex_areas
 from kfmaps.io import read_vertex_numbers, save_map
 from kfmaps.io.landmark_files import landmark_suffix
-from kfmaps.io.map_summary import mean_confidence
+from kfmaps.io.mapcontent import mean_confidence
 from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_landmark_pairs
 from kfmaps.io.provenance import with_files

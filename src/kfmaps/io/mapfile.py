@@ -13,8 +13,7 @@ import numpy as np
 from kfmaps._arrays import Array, refuse
 from kfmaps.io.atomic import atomic_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
-from kfmaps.io.map_summary import read_record, summarize_match
-from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, real
+from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, read_record, real, summarize_match
 from kfmaps.io.matfile import check_unpacked, read_mat
 from kfmaps.io.text import REPAIR, check_suffix, complete_or_refuse, read_bytes
 from kfmaps.matching.result import Match

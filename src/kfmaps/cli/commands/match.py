@@ -22,7 +22,7 @@ from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_output, read_values, save_map
-from kfmaps.io.map_summary import summarize_match
+from kfmaps.io.mapcontent import summarize_match
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_given_landmarks
