@@ -18,11 +18,14 @@ import scipy.io
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from kfmaps._arrays import InvalidInput
+from conftest import blob
+from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import Config
 from kfmaps.fmap.precise import PointMap
-from kfmaps.io import check_map, load_map, save_map
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import check_map, load_map, save_map, write_mesh
 from kfmaps.io.mapcontent import ARRAYS, summarize_match
+from kfmaps.io.provenance import map_mesh, with_files
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.matching.result import SHAPE_FIELDS, Match
 from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
@@ -399,3 +402,13 @@ def test_a_terabyte_is_refused_at_once(tmp_path: Path) -> None:
     at = lie.rindex(b"PK\1\2")
     lie[at + 24 : at + 28] = b"\xf0\xff\xff\xff"  # the size that the archive declares
     assert "at most 2.15 GB unpacked, got 4.29 GB" in refused(tmp_path / "m.npz", bytes(lie))
+
+
+def test_a_shape_that_has_changed_since_is_told(tmp_path: Path) -> None:
+    mesh, path = blob(60), tmp_path / "a.ply"
+    write_mesh(path, mesh)
+    match = with_files(Match(ONE), (path, path), (mesh, mesh))
+    np.testing.assert_array_equal(map_mesh(None, match, "source", tmp_path / "m.npz").faces, mesh.faces)
+    write_mesh(path, Mesh(2 * mesh.vertices, mesh.faces), force=True)
+    with pytest.warns(KfmapsWarning, match=r"a\.ply has changed since the map was made"):
+        assert map_mesh(None, match, "target", tmp_path / "m.npz").vertices[0, 0] == 2 * mesh.vertices[0, 0]

@@ -77,8 +77,6 @@ def _split(data: bytes, name: str) -> tuple[JsonObject, bytes | None]:
         at = 20 + first
         size = int.from_bytes(data[at : at + 4], "little")
         if data[at + 4 : at + 8] == b"BIN\0":
-            if at + 8 + size > len(data):
-                raise refuse(name, f"{size} bytes of numbers", f"{len(data) - at - 8}", _CUT)
             binary = data[at + 8 : at + 8 + size]
         data = data[20 : 20 + first]
     tree = json.loads(data)

@@ -32,14 +32,6 @@ def with_files(match: Match, paths: tuple[Path, Path], meshes: tuple[Mesh, Mesh]
     return replace(match, source=meshes[0], target=meshes[1], source_file=source, target_file=target)
 
 
-def read_shape(given: Path | None, found: Match, side: str, beside: Path) -> MeshFile:
-    """Return the shape ``side`` of a map, read from :func:`mesh_path`, and warn where it has changed since."""
-    path, known = mesh_path(given, found, side, beside), getattr(found, f"{side}_file").sha256
-    if known and sha256(path) not in ("", known):
-        warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
-    return read_mesh_file(path)
-
-
 def mesh_path(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Path:
     """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map."""
     if given is not None:
@@ -59,10 +51,12 @@ def map_mesh(given: Path | None, found: Match, side: str, beside: Path, remedy: 
 
 
 def map_mesh_file(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> MeshFile:
-    """Return the shape ``side`` of a map, read from :func:`mesh_path`.
+    """Return the shape ``side`` of a map, read from :func:`mesh_path`, and warn where it has changed since.
 
     What is odd about it was told when it was matched, and is not told again.
     """
-    path = mesh_path(given, found, side, beside, remedy)
+    path, known = mesh_path(given, found, side, beside, remedy), getattr(found, f"{side}_file").sha256
+    if known and sha256(path) not in ("", known):
+        warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
         return read_mesh_file(path)

@@ -6,7 +6,7 @@ import difflib
 import json
 import pickle
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any
@@ -124,24 +124,20 @@ def with_assignments(
             raise refuse("--set", "NAME=VALUE, such as weights.laplacian=0.5", repr(text), "see `kfmaps config`")
         given[f"--set {path}"] = (path, _literal(value))
 
-    def applied(labels: Sequence[str]) -> Config:
-        return from_dict(_nested(dict(given[label] for label in labels)), base)
-
-    def works(labels: Sequence[str]) -> bool:
+    def made(labels: Iterable[str]) -> Config | InvalidInput:
         try:
-            applied(labels)
-        except InvalidInput:
-            return False
-        return True
+            return from_dict(_nested(dict(given[label] for label in labels)), base)
+        except InvalidInput as error:
+            return error
 
     # All at once, since one value may be right only beside another.
-    try:
-        return applied(list(given)) if given else base
-    except InvalidInput as error:
-        guilty = [label for label in given if works([other for other in given if other != label])]
-        guilty = guilty or [label for label in given if not works([label])]
-        # A pair that contradicts each other is named whole; of several unrelated faults, the first.
-        raise InvalidInput(f"{', '.join(guilty[:2])}: {error}" if guilty else str(error)) from error
+    config = made(given)
+    if isinstance(config, Config):
+        return config
+    guilty = [label for label in given if isinstance(made([other for other in given if other != label]), Config)]
+    guilty = guilty or [label for label in given if isinstance(made([label]), InvalidInput)]
+    # A pair that contradicts each other is named whole; of several unrelated faults, the first.
+    raise InvalidInput(f"{', '.join(guilty[:2])}: {config}" if guilty else str(config)) from config
 
 
 def similar_settings(option: str) -> list[str]:

@@ -13,7 +13,7 @@ from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
 from kfmaps.io import Values, check_map, check_output, load_map, save_map, write_colored, write_textured, write_values
 from kfmaps.io.export import write_morph
-from kfmaps.io.provenance import read_shape
+from kfmaps.io.provenance import map_mesh_file
 from kfmaps.io.text import check_suffix
 from kfmaps.viz import position_colors
 
@@ -64,7 +64,7 @@ def export(
     found = load_map(map)
     whole = suffix in _SHAPES
     shape_s, shape_t = (
-        read_shape(given, found, side, map) if whole or given is not None else None
+        map_mesh_file(given, found, side, map) if whole or given is not None else None
         for given, side in ((source, "source"), (target, "target"))
     )
     n_s, n_t = (None if one is None else len(one.mesh.vertices) for one in (shape_s, shape_t))

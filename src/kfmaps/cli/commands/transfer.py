@@ -15,7 +15,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_values, write_values
 from kfmaps.io.landmark_files import landmark_format, mesh_space
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
-from kfmaps.io.provenance import mesh_path, read_shape
+from kfmaps.io.provenance import map_mesh, mesh_path
 from kfmaps.io.transfer import Counterparts, find_counterparts, precise_points, transfer_back, transfer_by_functions
 from kfmaps.io.transfer import transfer as transfer_values
 from kfmaps.matching.result import Match
@@ -77,11 +77,11 @@ def _carried(
         _, mesh, ways = _both(found, map, given)
         return Values(transfer_back(read.array, ways, mesh, gone), read.columns)
     if products is not None:
-        source, target = (read_shape(path, found, side, map).mesh for side, path in zip(_SIDES, given, strict=True))
+        source, target = (map_mesh(path, found, side, map) for side, path in zip(_SIDES, given, strict=True))
         return Values(transfer_by_functions(read.array, found, source, target, products), read.columns)
     faces = None
     if found.precise_map is not None and read.array.dtype.kind == "f":
-        shape = read_shape(given[0], found, "source", map).mesh
+        shape = map_mesh(given[0], found, "source", map)
         precise_points(found, shape)
         faces = shape.faces
     return Values(transfer_values(read.array, found, faces, gone), read.columns)
@@ -89,7 +89,7 @@ def _carried(
 
 def _both(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
     """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
-    source, target = (read_shape(path, found, side, map).mesh for side, path in zip(_SIDES, given, strict=True))
+    source, target = (map_mesh(path, found, side, map) for side, path in zip(_SIDES, given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
             raise refuse(side, "a surface with faces", "a point cloud", "leave --points and --back out")
