@@ -67,7 +67,7 @@ _COLUMNS: tuple[_Column, ...] = (
 class AgreementSection:
     """What making the maps agree adds to the summary page."""
 
-    changed: Mapping[str, bytes] = field(default_factory=dict)  # pictures of replaced maps, before and after
+    changed: Mapping[str, str] = field(default_factory=dict)  # pictures of replaced maps, before and after, by caption
     doubted: Sequence[str] = ()  # pairs that others contradict and for which nothing better is known, a line each
     specimens: Mapping[str, Any] = field(default_factory=dict)  # charts of the shapes, and a table
 
@@ -106,15 +106,15 @@ def summary_page(
     name: str,
     results: Sequence[Result],
     settings: Mapping[str, object],
-    pictures: Mapping[str, bytes],
+    pictures: Mapping[str, str],
     pairs: int,
     pages: Mapping[Pair, str] | None = None,
     agreement: AgreementSection | None = None,
 ) -> str:
     """Return the summary page.
 
-    ``name``: title, any text; ``settings``: as JSON holds them; ``pictures``: of the worst pairs, in the order to be
-    shown; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary.
+    ``name``: title, any text; ``settings``: as JSON holds them; ``pictures``: addresses by caption, of the worst
+    pairs; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary.
     """
     agreement = agreement or AgreementSection()
     numbers, ordered = summarize(results), worst_first(results)
@@ -143,8 +143,8 @@ def summary_page(
         cells=list(zip(*cells, strict=True)),
         largest=max((r.error_mean or 0.0 for r in ordered), default=0.0),
         pages=pages or {},
-        pictures=_addresses(pictures),
-        changed_pictures=_addresses(agreement.changed),
+        pictures=pictures,
+        changed_pictures=agreement.changed,
         doubted=agreement.doubted,
         specimens=agreement.specimens.get("sections", ()),
         shapes=agreement.specimens.get("shapes"),
@@ -158,7 +158,7 @@ def _curve(results: Sequence[Result]) -> dict[str, str] | None:
         return None
     fractions = np.interp((0.01, 0.05, 0.1), curve.thresholds, curve.fractions)
     within = [f"{100 * f:.1f} % within {limit} {UNIT}" for f, limit in zip(fractions, (1, 5, 10), strict=True)]
-    return {"within": ", ".join(within), "address": _svg(curves_figure([curve], size=(6.4, 3.8)))}
+    return {"within": ", ".join(within), "address": _picture(curves_figure([curve], size=(6.4, 3.8)), "svg+xml")}
 
 
 def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
@@ -167,21 +167,12 @@ def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
     return mean_curve(label, np.array(CURVE_ERRORS), np.array(curves)) if curves else None
 
 
-def _svg(figure: Figure) -> str:
+def _picture(figure: Figure, kind: str) -> str:
+    """The figure as an address: of a chart as "svg+xml", whose text can be searched, or as "png"."""
     buffer = io.BytesIO()
-    with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):  # text can be searched
-        save_figure(make_transparent(figure), buffer, "svg")
-    return data_address("image/svg+xml", buffer.getvalue())
-
-
-def _png(figure: Figure) -> bytes:
-    buffer = io.BytesIO()
-    save_figure(make_transparent(figure), buffer, "png")
-    return buffer.getvalue()
-
-
-def _addresses(pictures: Mapping[str, bytes]) -> list[tuple[str, str]]:
-    return [(caption, data_address("image/png", png)) for caption, png in pictures.items()]
+    with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):
+        save_figure(make_transparent(figure), buffer, kind.removesuffix("+xml"))
+    return data_address(f"image/{kind}", buffer.getvalue())
 
 
 def _specimens(plan: Plan, known: ShapeStatistics) -> dict[str, Any]:
@@ -196,7 +187,7 @@ def _specimens(plan: Plan, known: ShapeStatistics) -> dict[str, Any]:
         chart = _chart([row for row in rows if row["shape"] in own], part)
         which = f": {len(own)} like {middle}" if len(known.parts) > 1 else ""
         varied = _variation(meshes[middle], part)
-        sections.append({"chart": _svg(chart), "which": which, "variation": varied, "middle": middle})
+        sections.append({"chart": _picture(chart, "svg+xml"), "which": which, "variation": varied, "middle": middle})
     titles = [t for t in rows[0] if any(row[t] for row in rows) and (t != "part" or len({r[t] for r in rows}) > 1)]
     return {"sections": sections, "shapes": {"titles": titles, "rows": rows}}
 
@@ -227,7 +218,7 @@ def _variation(path: str, part: dict[str, np.ndarray]) -> str:
     values = {f"{kind} differs by": part[f"variation_{kind}"] for kind in DIFFERENCE_KINDS}
     if any(len(v) != len(mesh.vertices) for v in values.values()):
         return ""
-    return data_address("image/png", _png(values_figure(mesh, values)))
+    return _picture(values_figure(mesh, values), "png")
 
 
 def _quiet_mesh(path: str) -> Mesh:
@@ -241,24 +232,25 @@ def _pictures(
     count: int,
     limit: float,
     before: Mapping[Pair, Result] | None = None,
-) -> dict[str, bytes]:
+) -> dict[str, str]:
     """Pictures of at most ``count`` pairs by caption; of those with a result ``before``, of the old map too.
 
     A pair that cannot be drawn, since its map or meshes are gone or do not fit any more, is left out.
     """
-    pictures: dict[str, bytes] = {}
+    pictures: dict[str, str] = {}
     drawn = 0
     for result in results:
         task = tasks.get(result.pair)
         if task is None or drawn == count:
             continue
         try:
-            new = {describe_result(result): _picture(task, limit, map_in_use(Path(task.folder), task.key))}
+            caption, new = describe_result(result), {}
             if before is not None:
-                old = f"before: {describe_result(before[result.pair])}"
-                new = {old: _picture(task, limit, map_path(Path(task.folder), task.key))} | {
-                    f"now: {caption}, {result.changed}": png for caption, png in new.items()
-                }
+                new[f"before: {describe_result(before[result.pair])}"] = _draw(
+                    task, limit, map_path(Path(task.folder), task.key)
+                )
+                caption = f"now: {caption}, {result.changed}"
+            new[caption] = _draw(task, limit, map_in_use(Path(task.folder), task.key))
         except (InvalidInput, OSError):
             continue
         pictures |= new
@@ -266,11 +258,12 @@ def _pictures(
     return pictures
 
 
-def _picture(task: PairTask, limit: float, path: Path) -> bytes:
-    """The PNG of a map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
+def _draw(task: PairTask, limit: float, path: Path) -> str:
+    """A map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
     source, target, truth = _read_pair(task)
     with one_blas_thread():
-        return _png(render(load_map(path), source, target, truth=truth, limit=limit, small=True))
+        figure = render(load_map(path), source, target, truth=truth, limit=limit, small=True)
+        return _picture(figure, "png")
 
 
 def _read_pair(task: PairTask) -> tuple[Mesh, Mesh, Truth | None]:
