@@ -28,9 +28,9 @@ from kfmaps.batch.work import (
     load_prepared,
     map_path,
     pair_samples,
+    pair_shapes,
     record_pair,
     save_pair_map,
-    true_vertices,
 )
 from kfmaps.collection.consistency import (
     StoredMap,
@@ -44,7 +44,6 @@ from kfmaps.collection.consistency import (
 from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair_maps
 from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.io import load_map
-from kfmaps.shape import Shape
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
 _TABLE = "pairs.csv"
@@ -180,7 +179,7 @@ def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
     inputs = digest_of([_map_digest(task) for task, _, _ in job.steps] or _map_digest(job.task), 32)
     kept = load_record(job.file, _Evidence)
     if kept is None or kept.inputs != inputs:
-        shapes = _shapes(job.task)
+        shapes = pair_shapes(job.task)
         with one_blas_thread():
             samples = pair_samples(job.task, shapes)
             if job.steps:
@@ -215,10 +214,9 @@ def _replace_map(job: _ReplaceTask) -> Result:
 
     def replaced() -> dict[str, Any]:
         composition = None if job.path is None else _compose(job.path)
-        shapes, config = _shapes(task), replace(task.spec.config, threads=1)
+        shapes, config = pair_shapes(task), replace(task.spec.config, threads=1)
         found = refine_replacement(change, _candidates(task), composition, shapes, config, job.label, task.spec.seed)
-        truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
-        return save_pair_map(task, found, shapes, truth, other)
+        return save_pair_map(task, found, shapes, other)
 
     return record_pair(
         task,
@@ -231,10 +229,6 @@ def _replace_map(job: _ReplaceTask) -> Result:
         error_before=job.before.error_mean,
         agreement=change.after.probability,
     )
-
-
-def _shapes(task: PairTask) -> tuple[Shape, Shape]:
-    return load_prepared(task.source), load_prepared(task.target)
 
 
 def _candidates(task: PairTask) -> list[StoredMap]:

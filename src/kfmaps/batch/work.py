@@ -26,7 +26,7 @@ from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, known_truth, read_vertex_lists
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
-from kfmaps.geometry.mesh import vertex_areas
+from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_vertex_numbers, save_map
 from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.io.mapcontent import mean_confidence
@@ -236,52 +236,42 @@ def load_prepared(task: ShapeTask) -> Shape:
     return shape
 
 
+def pair_shapes(task: PairTask) -> tuple[Shape, Shape]:
+    """Return the prepared source and target of a pair."""
+    return load_prepared(task.source), load_prepared(task.target)
+
+
 def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamples, ShapeSamples]:
     """Return what a search needs to know of both shapes, from the cache."""
-    source, target = task.source, task.target
-    return (
-        cached_samples(shapes[0], Path(source.entry), task.spec.seed),
-        cached_samples(shapes[1], Path(target.entry), task.spec.seed),
-    )
+    entries, seed = (Path(task.source.entry), Path(task.target.entry)), task.spec.seed
+    return cached_samples(shapes[0], entries[0], seed), cached_samples(shapes[1], entries[1], seed)
 
 
 def _matched(task: PairTask) -> dict[str, Any]:
     """Match, save the map, and give the fields of the result."""
-    source, target = load_prepared(task.source), load_prepared(task.target)
-    sizes = len(source.mesh.vertices), len(target.mesh.vertices)
-    truth = true_vertices(task, *sizes)
-    landmarks = _landmark_pairs(task, truth, *sizes)
-    probes = None
-    if task.spec.config.search is not None and landmarks is None:
-        probes = pair_samples(task, (source, target))
-    found = match(
-        source, target, replace(task.spec.config, threads=1), landmarks=landmarks, rng=task.spec.seed, probes=probes
-    )
-    path = map_path(Path(task.folder), task.key)
-    return save_pair_map(task, found, (source, target), truth, path)
+    shapes, config = pair_shapes(task), replace(task.spec.config, threads=1)
+    landmarks = _landmark_pairs(task, *(len(shape.mesh.vertices) for shape in shapes))
+    probes = pair_samples(task, shapes) if config.search is not None and landmarks is None else None
+    found = match(*shapes, config, landmarks=landmarks, rng=task.spec.seed, probes=probes)
+    return save_pair_map(task, found, shapes, map_path(Path(task.folder), task.key))
 
 
-def save_pair_map(
-    task: PairTask, found: Match, shapes: tuple[Shape, Shape], truth: Truth | None, path: Path
-) -> dict[str, Any]:
+def save_pair_map(task: PairTask, found: Match, shapes: tuple[Shape, Shape], path: Path) -> dict[str, Any]:
     """Save the map of a pair to ``path``, and return the fields of its result."""
-    source, target = shapes
-    sizes = len(source.mesh.vertices), len(target.mesh.vertices)
+    source, target = (shape.mesh for shape in shapes)
     start = time.perf_counter()
-    points = found.target_to_source
-    accuracy = None if truth is None else assess(source.mesh, points, truth, mirrored=_MIRRORED_POINTS)
-    reached = coverage(points, source.mesh)
+    truth, points = true_vertices(task, len(source.vertices), len(target.vertices)), found.target_to_source
+    accuracy = None if truth is None else assess(source, points, truth, mirrored=_MIRRORED_POINTS)
+    reached = coverage(points, source)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
-    paths = Path(task.source.path), Path(task.target.path)
-    found = with_files(found, paths, (source.mesh, target.mesh))
     path.parent.mkdir(parents=True, exist_ok=True)
-    save_map(path, found, force=True)
+    save_map(path, with_files(found, (Path(task.source.path), Path(task.target.path)), (source, target)), force=True)
     return _errors(accuracy) | {
-        "vertices_s": sizes[0],
-        "vertices_t": sizes[1],
+        "vertices_s": len(source.vertices),
+        "vertices_t": len(target.vertices),
         "landmarks": len(found.landmarks),
         "coverage": reached,
-        **_common(found, shapes),
+        **_common(found, (source, target)),
         "confidence": None if found.confidence is None else float(found.confidence),
         "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
@@ -293,13 +283,12 @@ def save_pair_map(
     }
 
 
-def _common(found: Match, shapes: tuple[Shape, Shape]) -> dict[str, float]:
+def _common(found: Match, meshes: tuple[Mesh, Mesh]) -> dict[str, float]:
     """How much of either shape's area both have; nothing of whole shapes."""
     overlaps = {"common_s": found.partial.overlap_source, "common_t": found.partial.overlap_target}
-    told = zip(overlaps.items(), shapes, strict=True)
     return {
-        name: float(np.average(overlap, weights=vertex_areas(shape.mesh)))
-        for (name, overlap), shape in told
+        name: float(np.average(overlap, weights=vertex_areas(mesh)))
+        for (name, overlap), mesh in zip(overlaps.items(), meshes, strict=True)
         if overlap is not None
     }
 
@@ -329,14 +318,14 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
     return check_truth(Truth(np.arange(n_s), numbers), n_s, n_t)
 
 
-def _landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> np.ndarray | None:
+def _landmark_pairs(task: PairTask, n_s: int, n_t: int) -> np.ndarray | None:
     """The pair's landmarks (l, 2), 0-based, or ``None``."""
+    truth = true_vertices(task, n_s, n_t)  # files that cannot be used are refused before the match
     if lines := task.spec.landmark_lines:
         if truth is None:
             raise refuse("--landmarks", "true correspondences", "none for this pair", "leave it out")
-        highest = max(lines)
-        if highest > len(truth.source):
-            got = f"line {highest} of {len(truth.source)}"
+        if max(lines) > len(truth.source):
+            got = f"line {max(lines)} of {len(truth.source)}"
             raise refuse("--landmarks", "lines of the truth", got, "choose others")
         rows = np.array(lines) - 1
         return np.stack([truth.source[rows], truth.target[rows]], axis=1)
