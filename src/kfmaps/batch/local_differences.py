@@ -24,29 +24,15 @@ from kfmaps.io.transfer import find_counterparts
 def local_differences(
     place: PointMap, source: Mesh, target: Mesh, points: np.ndarray, known: np.ndarray, common: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return how the target differs from the source around each landmark.
+    """Return how the target differs from the source around each landmark, in area and in angles: (l,) and (l,).
 
-    The surroundings of a landmark are the part of the source that is nearer to it than to any other.
+    The surroundings of a landmark are the part of the source that is nearer to it than to any other. The area is that
+    on the target, relative to the source, once what both have is scaled to equal area. The conformal distortion is the
+    median over the area there of (σ₁/σ₂ + σ₂/σ₁) / 2 of the map of each triangle, σ its stretches: 1 where angles are
+    kept (Hormann and Greiner, MIPS: an efficient global parametrization method, 2000).
 
-    Parameters
-    ----------
-    place : PointMap
-        The point of the source for each target vertex.
-    source, target : Mesh
-    points : (l, 3)
-        Landmarks of the source.
-    known : (n_t,) bool
-        Which target vertices have a counterpart.
-    common : (n_s,) bool
-        Which source vertices have one.
-
-    Returns
-    -------
-    area : (l,) float64
-        Area of the surroundings on the target, relative to the source, once what both have is scaled to equal area.
-    conformal_distortion : (l,) float64
-        Median over the area there of (σ₁/σ₂ + σ₂/σ₁) / 2 of the map of each triangle, σ its stretches: 1 where angles
-        are kept (Hormann and Greiner, MIPS: an efficient global parametrization method, 2000).
+    ``place``: the point of the source for each target vertex; ``points (l, 3)``: landmarks of the source; ``known
+    (n_t,)`` and ``common (n_s,)``: which vertices of target and source have a counterpart.
     """
     faces = target.faces[known[target.faces].all(axis=1)]
     images, tree = point_positions(place, source)[faces], KDTree(points)

@@ -9,6 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -261,17 +262,17 @@ def _write_fcsv(sets: Sequence[LandmarkSet]) -> str:
 
 def _read_tps(text: str, name: str) -> list[LandmarkSet]:
     """Rohlf's TPS: ``LM=`` or ``LM3=`` and the points, curves by ``POINTS=``, then ``IMAGE=``, ``ID=``, ``SCALE=``."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    lines = (line.strip() for line in text.splitlines() if line.strip())
     found: list[tuple[list[str], list[list[str]], dict[str, str]]] = []
-    at, curves = 0, 0
-    while at < len(lines):
-        key, equals, value = (part.strip() for part in lines[at].partition("="))
-        key, at = key.upper(), at + 1
+    curves = 0
+    for line in lines:
+        key, equals, value = (part.strip() for part in line.partition("="))
+        key = key.upper()
         if key in ("LM", "LM3"):
             found.append(([], [], {}))
             curves = 0
         if not equals or not found:
-            raise refuse(name, "a keyword such as LM3= and its points", repr(lines[at - 1][:24]), REPAIR)
+            raise refuse(name, "a keyword such as LM3= and its points", repr(line[:24]), REPAIR)
         labels, rows, known = found[-1]
         if key not in ("LM", "LM3", "POINTS", "POINTS3"):
             known[key] = value
@@ -280,12 +281,11 @@ def _read_tps(text: str, name: str) -> list[LandmarkSet]:
         if key.startswith("POINTS"):
             curves += 1
             prefix = f"curve{curves}_"
-        count = int(value)
-        if not 0 <= count <= len(lines) - at:
-            raise refuse(name, f"{value} points after {key}=", f"{len(lines) - at}", REPAIR)
-        rows += [line.split() for line in lines[at : at + count]]
-        labels += [f"{prefix}{i + 1}" for i in range(count)]
-        at += count
+        own = list(islice(lines, int(value)))
+        if len(own) < int(value):
+            raise refuse(name, f"{value} points after {key}=", f"{len(own)}", REPAIR)
+        rows += [point.split() for point in own]
+        labels += [f"{prefix}{i + 1}" for i in range(len(own))]
     sets = []
     for labels, rows, known in found:
         image = Path(known.get("IMAGE", "").replace("\\", "/")).stem
@@ -362,13 +362,8 @@ def _read_csv(text: str, name: str) -> list[LandmarkSet]:
     triples = _triples(rows[0])
     if triples:
         return _wide(titles, triples, rows[1:], name)
-    if is_number(rows[0][-1]) or rows[0][-1].lower() in MISSING:
-        rows.insert(0, [])
-    return _plain(rows[1:], name)
-
-
-def _plain(rows: list[list[str]], name: str) -> list[LandmarkSet]:
-    """Rows "name, vertex", "vertex", "name, x, y, z" or "x, y, z" without titles that say so."""
+    if not is_number(rows[0][-1]) and rows[0][-1].lower() not in MISSING:
+        rows = rows[1:]  # titles that say nothing
     widths = sorted({len(row) for row in rows})
     if len(widths) != 1 or widths[0] > 4:
         got = f"rows of {', '.join(map(str, widths))} cells" if widths else "none"
