@@ -10,12 +10,13 @@ import signal
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import permutations
 from pathlib import Path
 
 import numpy as np
 
 from conftest import blob
-from kfmaps.batch.layout import Pair, choose_pairs, find_collection
+from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import Plan, make_plan
 from kfmaps.batch.results import Result
 from kfmaps.batch.run import run_batch
@@ -74,7 +75,8 @@ def plan_of(
     """The plan of all pairs of a folder."""
     collection = find_collection(folder)
     settings = RunSpec(config, seed=seed, landmark_lines=lines)
-    return make_plan(collection, choose_pairs(collection, every=True), settings, output, retry_failed=retry_failed)
+    pairs = [Pair(a, b) for a, b in permutations(collection.shapes, 2)]
+    return make_plan(collection, pairs, settings, output, retry_failed=retry_failed)
 
 
 def touch(path: Path, text: str = "") -> Path:

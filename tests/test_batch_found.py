@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from collecting import CONFIG, touch
+from collecting import CONFIG, plan_of, touch
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.layout import Pair, choose_pairs, find_collection, natural
+from kfmaps.batch.jobs import WorkerPool
+from kfmaps.batch.layout import Pair, find_collection, listed_pairs, natural
+from kfmaps.batch.plan import graph_pairs
 from kfmaps.batch.progress import WorkLeft
 from kfmaps.batch.run_spec import RunSpec, claim
 from kfmaps.cli.words import format_seconds
@@ -32,7 +33,7 @@ def test_remeshed_layouts(tmp_path: Path, sub: str) -> None:
     assert set(found.truth) == set(found.mirrored) == set(found.shapes)
     assert found.mirrored["tr_reg_2"].name == "tr_reg_2.sym.vts"
     assert set(found.landmarks) == {"tr_reg_2"}
-    assert choose_pairs(found) == [Pair("tr_reg_2", "tr_reg_10"), Pair("tr_reg_10", "tr_reg_2")]
+    assert listed_pairs(found) == [Pair("tr_reg_2", "tr_reg_10"), Pair("tr_reg_10", "tr_reg_2")]
 
 
 def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
@@ -41,7 +42,7 @@ def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
     for name in ("10_1", "2_10", "a_b_2", "7_1"):
         touch(tmp_path / "corres" / f"{name}.map")
     found = find_collection(tmp_path)
-    assert choose_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
+    assert listed_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
 
 
 def test_shapes_of_the_top_folder_win(tmp_path: Path) -> None:
@@ -65,10 +66,12 @@ def test_choices_of_pairs(tmp_path: Path) -> None:
     for name in ("a", "b", "c"):
         touch(tmp_path / f"{name}.off")
     found = find_collection(tmp_path)
-    assert len(set(choose_pairs(found, every=True))) == 6
-    assert choose_pairs(found, star="b.off") == [Pair("b", "a"), Pair("b", "c")]
+    pool, spec = WorkerPool(), RunSpec(CONFIG)  # a pool that is not started
+    both = graph_pairs(found, spec, tmp_path / "out", "both", pool)
+    assert len(set(both)) == len(both) == 6
+    assert graph_pairs(found, spec, tmp_path / "out", "star:b.off", pool) == [Pair("b", "a"), Pair("b", "c")]
     file = touch(tmp_path / "list.txt", "a b\na b\nb a")
-    assert choose_pairs(found, file=file) == [Pair("a", "b"), Pair("b", "a")]
+    assert listed_pairs(found, file) == [Pair("a", "b"), Pair("b", "a")]
 
 
 @pytest.mark.parametrize(
@@ -79,21 +82,20 @@ def test_bad_lists_of_pairs(tmp_path: Path, text: str, message: str) -> None:
     for name in ("a", "b"):
         touch(tmp_path / f"{name}.off")
     with pytest.raises(InvalidInput, match=message):
-        choose_pairs(find_collection(tmp_path), file=touch(tmp_path / "list.txt", text))
+        listed_pairs(find_collection(tmp_path), touch(tmp_path / "list.txt", text))
 
 
 def test_bad_choices_of_pairs(tmp_path: Path) -> None:
     touch(tmp_path / "a.off")
     found = find_collection(tmp_path)
-    choices: list[tuple[dict[str, Any], str]] = [
-        ({}, "test_pairs.txt"),
-        ({"star": "x"}, "'x'"),
-        ({"every": True}, "two shapes"),
-        ({"file": tmp_path / "none.txt"}, "nothing there"),
-    ]
-    for choice, message in choices:
+    for file, message in ((None, "test_pairs.txt"), (tmp_path / "none.txt", "nothing there")):
         with pytest.raises(InvalidInput, match=message):
-            choose_pairs(found, **choice)
+            listed_pairs(found, file)
+    with pytest.raises(InvalidInput, match="two shapes"):
+        graph_pairs(found, RunSpec(CONFIG), tmp_path / "out", "both", WorkerPool())
+    touch(tmp_path / "b.off")
+    with pytest.raises(InvalidInput, match="'x'"):
+        graph_pairs(find_collection(tmp_path), RunSpec(CONFIG), tmp_path / "out", "star:x", WorkerPool())
 
 
 def test_keys_tell_pairs_apart(tmp_path: Path) -> None:
@@ -103,7 +105,7 @@ def test_keys_tell_pairs_apart(tmp_path: Path) -> None:
         touch(tmp_path / f"{name}.off")
     if len(list(tmp_path.iterdir())) == 3:
         with pytest.raises(InvalidInput, match="tell pairs apart"):
-            choose_pairs(find_collection(tmp_path), every=True)
+            plan_of(tmp_path, tmp_path / "out")
 
 
 def test_natural_order() -> None:

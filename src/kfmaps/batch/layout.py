@@ -136,41 +136,21 @@ def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair,
     return {pair: maps[pair] for pair in sorted(maps, key=lambda p: (natural(p.source), natural(p.target)))}
 
 
-def choose_pairs(
-    collection: ShapeFolder, *, file: str | Path | None = None, every: bool = False, star: str | None = None
-) -> list[Pair]:
-    """Return the pairs to match, each once and in order.
+def listed_pairs(collection: ShapeFolder, file: str | Path | None = None) -> list[Pair]:
+    """Return the pairs that a list has, each once and in order.
 
-    ``file``: two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension.
-    ``every``: every shape to every other one, both ways; ``star``: this shape as the source of all others.
+    ``file``: two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension. Without
+    it the folder's own list, or the pairs whose truth the folder has.
     """
-    names = list(collection.shapes)
-    if every:
-        pairs = [Pair(a, b) for a in names for b in names if a != b]
-    elif star is not None:
-        centre = _known(star, collection, "--graph star:SHAPE")
-        pairs = [Pair(centre, name) for name in names if name != centre]
-    elif file is not None or collection.pairs is not None:
-        pairs = _read_pairs(file or collection.pairs or "", collection)
-    elif collection.maps:
-        pairs = list(collection.maps)
-    else:
+    listed = file or collection.pairs
+    if listed is None and not collection.maps:
         got = f"no {_PAIRS_FILE} in {collection.folder}"
         raise refuse("pairs", "a list of pairs", got, "give --pairs FILE, or let --graph near choose them")
-    pairs = list(dict.fromkeys(pairs))
-    if not pairs:
-        raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")
-    keys: dict[str, Pair] = {}
-    for pair in pairs:
-        other = keys.setdefault(pair.key.casefold(), pair)  # some file systems do not tell a from A
-        if other != pair:
-            got = f"{other.key} for two of them"
-            raise refuse("pairs", "names that tell pairs apart", got, "rename one of the shapes")
-    return pairs
+    return list(dict.fromkeys(collection.maps if listed is None else _read_pairs(listed, collection)))
 
 
-def _known(name: str, collection: ShapeFolder, where: str) -> str:
-    """The shape's name, given with or without extension."""
+def known_shape(name: str, collection: ShapeFolder, where: str) -> str:
+    """Return the shape's name, given with or without extension; ``where``: how messages call it."""
     for known in (name, Path(name).stem):
         if known in collection.shapes:
             return known
@@ -179,7 +159,7 @@ def _known(name: str, collection: ShapeFolder, where: str) -> str:
 
 
 def _read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
-    """Read a list of pairs; see :func:`choose_pairs`."""
+    """Read a list of pairs; see :func:`listed_pairs`."""
     pairs = []
     for number, line in enumerate(read_text(path).splitlines(), 1):
         words = line.split("#", 1)[0].replace(",", " ").split()
@@ -188,7 +168,7 @@ def _read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
         where = f"{path}, line {number}"
         if len(words) != 2:
             raise refuse(where, "two names, source and target", f"{len(words)}", "write one pair a line")
-        pairs.append(Pair(*(_known(word, collection, where) for word in words)))
+        pairs.append(Pair(*(known_shape(word, collection, where) for word in words)))
     if not pairs:
         raise refuse(f"pairs {path}", "two names a line", "no pairs", "check the file")
     return pairs

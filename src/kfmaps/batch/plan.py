@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import combinations
+from itertools import combinations, permutations
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.batch.cache import file_digest, shape_key
 from kfmaps.batch.jobs import WorkerPool
-from kfmaps.batch.layout import Pair, ShapeFolder, choose_pairs
+from kfmaps.batch.layout import Pair, ShapeFolder, known_shape
 from kfmaps.batch.results import FOLDER, Result, read_result, result_path
 from kfmaps.batch.run_spec import RunSpec, claim, digest_of
 from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
@@ -51,7 +51,13 @@ def make_plan(
     _make_folder(make.folder / FOLDER)
     tasks = tuple(make.pair(pair) for pair in pairs)
     todo, results, changed = [], [], 0
+    keys: dict[str, Pair] = {}
     for task in tasks:
+        other = keys.setdefault(task.key.casefold(), task.pair)  # some file systems do not tell a from A
+        if other != task.pair:
+            raise refuse(
+                "pairs", "names that tell pairs apart", f"{other.key} for two of them", "rename one of the shapes"
+            )
         there = read_result(result_path(make.folder, task.key))
         if there is not None and there.pair != task.pair:
             got = f"{there.source} and {there.target}"
@@ -75,16 +81,15 @@ def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind
     the middle one, which fails. ``pool``: prepares the shapes.
     """
     names = list(collection.shapes)
-    if kind.startswith("star:"):
-        return choose_pairs(collection, star=kind.removeprefix("star:"))
-    if kind not in ("near", "star", "all", "both"):
+    if kind not in ("near", "star", "all", "both") and not kind.startswith("star:"):
         raise refuse("--graph", GRAPHS, repr(kind), "choose one of them")
     if len(names) < 2:
         raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")
-    if kind == "both":
-        return choose_pairs(collection, every=True)
-    if kind == "all":
-        return [Pair(a, b) for a, b in combinations(names, 2)]
+    if kind.startswith("star:"):
+        centre = known_shape(kind.removeprefix("star:"), collection, "--graph star:SHAPE")
+        return [Pair(centre, name) for name in names if name != centre]
+    if kind in ("all", "both"):
+        return [Pair(a, b) for a, b in (combinations if kind == "all" else permutations)(names, 2)]
     make = _Tasks(collection, spec, output)
     tasks = [make.shape(name) for name in names]
     key = digest_of([kind, sorted((task.name, task.content) for task in tasks)], 32)
