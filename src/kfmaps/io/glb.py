@@ -55,25 +55,25 @@ def format_glb(shape: MeshFile) -> bytes:
     mesh, colors, uv, uv_faces, picture = shape.mesh, shape.colors, shape.uv, shape.uv_faces, shape.picture
     chunks = _Chunks()
     rows, faces = np.arange(len(mesh.vertices)), mesh.faces
-    at_uv = None
+    attributes: dict[str, int] = {}
+    material: JsonObject = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
+    tree: JsonObject = {}
     if uv is not None and uv_faces is not None:
         pairs, corner = np.unique(np.stack([mesh.faces.ravel(), uv_faces.ravel()], axis=1), axis=0, return_inverse=True)
-        rows, faces, at_uv = pairs[:, 0], corner.reshape(-1, 3), pairs[:, 1]
-    attributes: dict[str, int] = {"POSITION": chunks.places(mesh.vertices[rows])}
+        rows, faces = pairs[:, 0], corner.reshape(-1, 3)
+        flipped = uv[pairs[:, 1]] * [1, -1] + [0, 1]  # glTF counts from the top of the picture
+        attributes["TEXCOORD_0"] = chunks.array(flipped.astype("<f4"), _FLOAT, "VEC2")
+        if picture is not None:
+            image = {"bufferView": chunks.view(picture.data), "mimeType": picture.kind}
+            tree = {"textures": [{"source": 0}], "images": [image]}
+            material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+    attributes["POSITION"] = chunks.places(mesh.vertices[rows])
     if len(mesh.faces):
         attributes["NORMAL"] = chunks.array(_directions(vertex_normals(mesh))[rows].astype("<f4"), _FLOAT, "VEC3")
     if colors is not None:
         linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
         four = np.hstack([bytes_of(linear), np.full((len(colors), 1), 255, dtype=np.uint8)])
         attributes["COLOR_0"] = chunks.array(four[rows], _BYTE, "VEC4", normalized=True)
-    material: JsonObject = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
-    tree: JsonObject = {}
-    if uv is not None and at_uv is not None:
-        flipped = np.stack([uv[at_uv, 0], 1 - uv[at_uv, 1]], axis=1)
-        attributes["TEXCOORD_0"] = chunks.array(flipped.astype("<f4"), _FLOAT, "VEC2")
-        if picture is not None:
-            material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
-            tree |= {"textures": [{"source": 0}], "images": [{"bufferView": 0, "mimeType": picture.kind}]}
     part: JsonObject = {"attributes": attributes, "material": 0}
     if len(faces):
         part["indices"] = chunks.array(faces.ravel().astype("<u4"), _INT, "SCALAR", _ELEMENT)
@@ -90,8 +90,6 @@ def format_glb(shape: MeshFile) -> bytes:
         order, heaviest = (np.pad(x, ((0, 0), (0, _MOST_JOINTS - x.shape[1]))) for x in (order, heaviest))
         attributes["JOINTS_0"] = chunks.array(np.where(heaviest > 0, order, 0)[rows].astype("<u2"), _SHORT, "VEC4")
         attributes["WEIGHTS_0"] = chunks.array(heaviest[rows].astype("<f4"), _FLOAT, "VEC4")
-    if "images" in tree and picture is not None:
-        tree["images"][0]["bufferView"] = chunks.view(picture.data)
     tree |= {
         "asset": {"version": "2.0", "generator": "kfmaps"},
         "scene": 0,
