@@ -117,7 +117,6 @@ class _Scene:
             if content is None or len(content) < size:
                 raise refuse(name, f"a buffer of {size} bytes", "none" if content is None else f"{len(content)}", _CUT)
             self.buffers.append(content[:size])
-        self._check_parts()
 
     def _one(self, kind: str, number: object) -> JsonObject:
         return self.tree[kind][_count(number)]
@@ -136,26 +135,6 @@ class _Scene:
                 raise refuse(self.name, "plain data", f"compressed data ({extension})", _UNCOMPRESSED)
             if not str(extension).startswith((*_LOOKS, "KHR_mesh_quantization")):
                 raise refuse(self.name, "plain glTF 2.0", f"the extension {extension!s:.60}", "export it without that")
-
-    def _check_parts(self) -> None:
-        """Refuse what would be read as zeros or skipped in silence."""
-        name = self.name
-        if any("bufferView" not in one and "sparse" not in one for one in self.tree.get("accessors", [])):
-            raise refuse(name, "plain data", "compressed data", _UNCOMPRESSED)
-        for part in [p for mesh in self.tree.get("meshes", []) for p in mesh["primitives"]]:
-            mode = part.get("mode", _TRIANGLES)
-            if mode == _FAN:
-                raise refuse(name, "triangles or strips", "a triangle fan", "export it as triangles")
-            if mode not in (_TRIANGLES, _STRIP):
-                continue
-            place = self._one("accessors", part["attributes"]["POSITION"])
-            corners = self._one("accessors", part["indices"]) if "indices" in part else {"componentType": 5125}
-            if "sparse" in place or "sparse" in corners:
-                raise refuse(name, "plain vertices and triangles", "sparse ones", _UNCOMPRESSED)
-            if (place["componentType"], place["type"]) != (_FLOAT, "VEC3"):
-                raise refuse(name, "positions as 32-bit numbers", "quantised ones", "export it unquantised")
-            if corners["componentType"] not in _UNSIGNED:
-                raise refuse(name, "unsigned vertex numbers", "others", REPAIR)
 
     def parts(self) -> list[_Part]:
         """Return the parts of the scene in the order of the file: by mesh, primitive and node."""
@@ -177,7 +156,10 @@ class _Scene:
             if "mesh" in node:
                 mesh = _count(node["mesh"])
                 for j, primitive in enumerate(self.tree["meshes"][mesh]["primitives"]):
-                    if primitive.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP):
+                    mode = primitive.get("mode", _TRIANGLES)
+                    if mode == _FAN:
+                        raise refuse(self.name, "triangles or strips", "a triangle fan", "export it as triangles")
+                    if mode in (_TRIANGLES, _STRIP):
                         parts.append(_Part(mesh, j, i, matrix, primitive, primitive["attributes"]))
         return sorted(parts, key=lambda p: p[:3])
 
@@ -186,6 +168,8 @@ class _Scene:
         accessor = self._one("accessors", number)
         item, width, count = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]], accessor["count"]
         sparse = accessor.get("sparse")
+        if sparse is None and "bufferView" not in accessor:
+            raise refuse(self.name, "plain data", "compressed data", _UNCOMPRESSED)
         if sparse is None:
             return self._block(accessor, item, width, count)
         rows = np.zeros((_count(count), width), item)
@@ -221,7 +205,7 @@ class _Scene:
         if not parts:
             return MeshFile(Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)))
         joints = self._joints(parts)
-        self._check_size(parts, joints)
+        self._check_parts(parts, joints)
         places, faces, colors, uv, morphs, weights, n = [], [], [], [], [], [], 0
         for part in parts:
             own = self.numbers(part.attributes["POSITION"])
@@ -310,10 +294,20 @@ class _Scene:
         names = tuple(str(self.tree["nodes"][j].get("name", f"joint {i}")) for i, j in enumerate(joints))
         return Skin(names, np.array(parents), np.stack([self.matrices[j] for j in joints]), weights)
 
-    def _check_size(self, parts: list[_Part], joints: list[int]) -> None:
-        """Refuse what nodes repeat again and again, and what does not fit into memory, before any of it is read."""
-        used = [p.attributes["POSITION"] for p in parts]
-        used += [p.primitive["indices"] for p in parts if "indices" in p.primitive]
+    def _check_parts(self, parts: list[_Part], joints: list[int]) -> None:
+        """Refuse other vertices and corners than can be read, and more than nodes should repeat or memory holds."""
+        used = []
+        for part in parts:
+            numbers = [part.attributes["POSITION"]]
+            numbers += [part.primitive["indices"]] if "indices" in part.primitive else []
+            place, *corners = (self._one("accessors", number) for number in numbers)
+            if any("sparse" in one for one in (place, *corners)):
+                raise refuse(self.name, "plain vertices and triangles", "sparse ones", _UNCOMPRESSED)
+            if (place["componentType"], place["type"]) != (_FLOAT, "VEC3"):
+                raise refuse(self.name, "positions as 32-bit numbers", "quantised ones", "export it unquantised")
+            if any(one["componentType"] not in _UNSIGNED for one in corners):
+                raise refuse(self.name, "unsigned vertex numbers", "others", REPAIR)
+            used += numbers
         sizes = {a: len(self.rows(a)) for a in set(used)}
         rows = sum(sizes[a] for a in used)
         repeated = rows - sum(sizes.values())
