@@ -5,6 +5,7 @@ SciPy's reader is not used, since a damaged file can end the whole process there
 
 from __future__ import annotations
 
+import struct
 import zlib
 
 import numpy as np
@@ -14,8 +15,8 @@ from kfmaps._memory import format_bytes
 from kfmaps.io.text import REPAIR
 
 _MATRIX, _COMPRESSED = 14, 15
-_NUMBERS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
-_ENCODINGS = {2: "latin-1", 4: "utf-16", 16: "utf-8", 17: "utf-16", 18: "utf-32"}
+_NUMBERS = {1: "<i1", 2: "<u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 9: "<f8", 12: "<i8", 13: "<u8"}
+_ENCODINGS = {2: "latin-1", 4: "utf-16-le", 16: "utf-8", 17: "utf-16-le", 18: "utf-32-le"}
 _CHAR, _NUMERIC, _COMPLEX = 4, range(6, 16), 0x0800
 
 
@@ -26,20 +27,19 @@ def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarra
     """
     if data[:10] == b"MATLAB 7.3" or data[1:4] == b"HDF":
         raise refuse(name, "a .mat file of version 5 to 7", "version 7.3", "save it with the option -v7")
-    order = {b"IM": "<", b"MI": ">"}.get(data[126:128])
-    if order is None:
+    if data[126:128] != b"IM":
         raise refuse(name, "a .mat file", "something else", "check the extension")
     content: dict[str, np.ndarray | str] = {}
     at, taken = 128, 0.0
     while at < len(data):
-        kind, body, at = _element(data, at, order, name, top=True)
+        kind, body, at = _element(data, at, name, top=True)
         if kind == _COMPRESSED:
-            body = _unpacked(body, order, name, taken, most)
+            body = _unpacked(body, name, taken, most)
             taken += len(body)
-            kind, body, _ = _element(body, 0, order, name)
+            kind, body, _ = _element(body, 0, name)
         if kind != _MATRIX:
             raise _damaged(name)
-        found = _variable(body, order, name)
+        found = _variable(body, name)
         if found is not None:
             content[found[0]] = found[1]
             taken += 8 * np.size(found[1]) if isinstance(found[1], np.ndarray) else 4 * len(found[1])
@@ -47,14 +47,14 @@ def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarra
     return content
 
 
-def _unpacked(body: bytes, order: str, name: str, taken: float, most: int) -> bytes:
+def _unpacked(body: bytes, name: str, taken: float, most: int) -> bytes:
     """A compressed element, of which not more is unpacked than it says, nor with ``taken`` more than ``most`` bytes."""
     stream = zlib.decompressobj()
     try:
         head = stream.decompress(body, 8)
         if len(head) < 8:
             raise _damaged(name)
-        kind, size = (int(x) for x in np.frombuffer(head, order + "u4", 2))
+        kind, size = struct.unpack("<2I", head)
         size = 0 if kind >> 16 else size  # a small element is all in its head
         check_unpacked(taken + size, most, name)
         rest = stream.decompress(stream.unconsumed_tail, size) if size else b""
@@ -77,47 +77,41 @@ def _damaged(name: str) -> Exception:
     return refuse(name, "a complete .mat file", "one that is cut short or damaged", REPAIR)
 
 
-def _element(data: bytes, at: int, order: str, name: str, top: bool = False) -> tuple[int, bytes, int]:
+def _element(data: bytes, at: int, name: str, top: bool = False) -> tuple[int, bytes, int]:
     """Type and bytes of the element at ``at``, and where the next one begins."""
     if at + 8 > len(data):
         raise _damaged(name)
-    kind, size = (int(x) for x in np.frombuffer(data, order + "u4", 2, at))
-    if kind >> 16:  # a small element: type, size and up to four bytes together
-        kind, size = kind & 0xFFFF, kind >> 16
-        start, following = at + 4, at + 8
+    kind, size = struct.unpack_from("<2I", data, at)
+    small = kind >> 16  # the bytes of a small element, which stand with its type in eight
+    if small:
+        kind, size, start, following = kind & 0xFFFF, small, at + 4, at + 8
     else:
         start = at + 8
-        # inside a matrix elements begin at multiples of 8
-        following = start + (size if top else -(-size // 8) * 8)
-    if start + size > len(data) or (following == at + 8 and size > 4 and start == at + 4):
+        following = start + (size if top else -(-size // 8) * 8)  # elements of a matrix begin at multiples of 8
+    if start + size > len(data) or small > 4:
         raise _damaged(name)
     return kind, data[start : start + size], following
 
 
-def _variable(body: bytes, order: str, name: str) -> tuple[str, np.ndarray | str] | None:
+def _variable(body: bytes, name: str) -> tuple[str, np.ndarray | str] | None:
     """Name and value of a matrix element; None for kinds that are left out."""
-    _, flags, at = _element(body, 0, order, name)
+    _, flags, at = _element(body, 0, name)
     if len(flags) != 8:
         raise _damaged(name)
-    flag = int(np.frombuffer(flags, order + "u4", 1)[0])
-    kind = flag & 0xFF
+    kind, flag = flags[0], int.from_bytes(flags[:4], "little")
     if (kind != _CHAR and kind not in _NUMERIC) or flag & _COMPLEX:
         return None
-    code, raw_shape, at = _element(body, at, order, name)
-    _, title, at = _element(body, at, order, name)
+    code, raw_shape, at = _element(body, at, name)
+    _, title, at = _element(body, at, name)
     if code != 5 or len(raw_shape) % 4 or len(raw_shape) < 8 or not title.isascii():
         raise _damaged(name)
-    shape = np.frombuffer(raw_shape, order + "i4").tolist()
-    code, raw, _ = _element(body, at, order, name)
+    code, raw, _ = _element(body, at, name)
     if kind == _CHAR:
-        encoding = _ENCODINGS.get(code, "")
-        if encoding in ("utf-16", "utf-32"):
-            encoding += "-le" if order == "<" else "-be"
         try:
-            return title.decode("ascii"), raw.decode(encoding)
+            return title.decode("ascii"), raw.decode(_ENCODINGS.get(code, ""))
         except (LookupError, UnicodeDecodeError) as error:
             raise _damaged(name) from error
-    item = np.dtype(order + _NUMBERS[code]) if code in _NUMBERS else None
+    shape, item = np.frombuffer(raw_shape, "<i4").tolist(), np.dtype(_NUMBERS[code]) if code in _NUMBERS else None
     if item is None or min(shape) < 0 or np.prod(shape, dtype=float) * item.itemsize != len(raw):
         raise _damaged(name)
     return title.decode("ascii"), np.frombuffer(raw, item).reshape(shape, order="F").astype(item.newbyteorder("="))
