@@ -10,17 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.fmap.evaluate import (
-    Evaluation,
-    Smoothness,
-    coverage,
-    error_curve,
-    geodesic_errors,
-    precise_errors,
-    smoothness,
-    summarize_errors,
-    truth_from_pairs,
-)
+from kfmaps.fmap import evaluate
+from kfmaps.fmap.evaluate import Evaluation, Smoothness
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import atomic_output, check_map, read_vertex_numbers
@@ -150,11 +141,12 @@ def assess(
 
     def errors(target: np.ndarray, most: int | None = None) -> Evaluation:
         step = 1 if most is None else -(-len(target) // most)
-        predicted = truth_from_pairs(truth.source, target, target_to_source)
+        predicted = evaluate.truth_from_pairs(truth.source, target, target_to_source)
         predicted, true = predicted[::step], truth.source[::step]
-        if not (predicted >= 0).any():
+        known = predicted >= 0
+        if not known.any():
             raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
-        return summarize_errors(geodesic_errors(source, predicted[predicted >= 0], true[predicted >= 0]))
+        return evaluate.summarize_errors(evaluate.geodesic_errors(source, predicted[known], true[known]))
 
     swapped = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
     precise = smooth = None
@@ -163,20 +155,20 @@ def assess(
     if place is not None and np.isin(truth.source, source.faces).all():
         rows = truth.target[matched]
         at = PointMap(place.faces[rows], place.weights[rows])
-        precise = summarize_errors(precise_errors(source, at, truth.source[matched]))
+        precise = evaluate.summarize_errors(evaluate.precise_errors(source, at, truth.source[matched]))
     lost = target_to_source < 0
     whole = place is not None or bool(np.isin(target_to_source[~lost], source.faces).all())
     if target is not None and len(target.faces) and whole:
         common = Mesh(target.vertices, target.faces[~lost[target.faces].any(axis=1)])
         if len(common.faces):
-            smooth = smoothness(source, common, np.maximum(target_to_source, 0) if place is None else place)
-    reached = coverage(target_to_source, source)
+            smooth = evaluate.smoothness(source, common, np.maximum(target_to_source, 0) if place is None else place)
+    reached = evaluate.coverage(target_to_source, source)
     return Accuracy(errors(truth.target), float(matched.mean()), reached, swapped, precise, smooth)
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:
     """Write the error curve as a table (.csv) or a picture (.png, .svg, .pdf)."""
-    fractions = error_curve(errors.errors, THRESHOLDS)
+    fractions = evaluate.error_curve(errors.errors, THRESHOLDS)
     if path.suffix.lower() == ".csv":
         rows = [[f"{t:.6g}", repr(float(f))] for t, f in zip(THRESHOLDS, fractions, strict=True)]
         write_text(path, csv_text([["error", "fraction"], *rows]), force)
