@@ -44,20 +44,7 @@ def two_poses(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     The poses bend it along its limbs, which changes lengths little: of the edges of one mesh, in the
     other pose, four in five keep their length within 10 %. The largest changes are at shoulders and hips.
 
-    Parameters
-    ----------
-    vertices : int
-        Of the source, from 1500 to 300000; the target has four fifths of them.
-    rng : int or numpy.random.Generator
-
-    Returns
-    -------
-    ExamplePair
-
-    Raises
-    ------
-    InvalidInput
-        When ``vertices`` is out of range.
+    The source has ``vertices`` (1500 to 300000) vertices, the target four fifths of them; ``rng`` places them.
     """
     rng = np.random.default_rng(rng)
     return posed_pair("two poses", Body(CREATURE), WAVE, DANCE, _counts(vertices), rng)
@@ -66,8 +53,8 @@ def two_poses(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
 def non_isometric(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
 
-    Lengths differ by up to a half between the two, the area by a third. ``vertices``, ``rng``, result and errors are as
-    in :func:`two_poses`.
+    Lengths differ by up to a half between the two, the area by a third. ``vertices`` and ``rng`` are as in
+    :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
     unbent, bent = with_proportions({}, PROPORTIONS), with_proportions(DANCE, PROPORTIONS)
@@ -78,23 +65,8 @@ def non_isometric(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
 def partial(vertices: int = 6000, rng: _Seed = 0, kept: float = 0.6) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a part of it in the other pose, cut off obliquely.
 
-    Parameters
-    ----------
-    vertices : int
-        Of the source, from 1500 to 300000; the whole that the target is cut from has four fifths of them.
-    rng : int or numpy.random.Generator
-    kept : float
-        Part of the target to keep, from 0.2 to 0.95; of what the cut leaves, only the largest piece.
-
-    Returns
-    -------
-    ExamplePair
-        Its target is one manifold piece with a boundary.
-
-    Raises
-    ------
-    InvalidInput
-        When ``vertices`` or ``kept`` is out of range.
+    The cut keeps the fraction ``kept`` (0.2 to 0.95) of the vertices, and of these the largest piece is the target: one
+    manifold with a boundary. ``vertices`` and ``rng`` are as in :func:`two_poses`, for the whole.
     """
     if not 0.2 <= kept <= 0.95:
         raise refuse("kept", "a number from 0.2 to 0.95", repr(kept), "choose one in that range")
@@ -115,7 +87,7 @@ def symmetric_creature(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return two poses of a creature whose right side is the mirror image of its left.
 
     Lengths alone cannot tell the direct truth from ``mirrored``; only orientation can. The poses are not
-    symmetric. ``vertices``, ``rng``, result and errors are as in :func:`two_poses`.
+    symmetric. ``vertices`` and ``rng`` are as in :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
     counts = _counts(vertices)

@@ -74,12 +74,7 @@ def percent_ticks() -> FuncFormatter:
 def error_colors(errors: np.ndarray, limit: float | None = None) -> np.ndarray:
     """Return colours of errors: white at 0, through red, to the darkest at ``limit`` and above, sRGB (n, 3).
 
-    Parameters
-    ----------
-    errors : (n,)
-        Not negative, in units of the square root of the area.
-    limit : float, optional
-        In the same units; by default :func:`error_limit`.
+    ``errors (n,)``: not negative, in units of √area; ``limit``: in the same units, by default :func:`error_limit`.
 
     Raises
     ------

@@ -48,15 +48,8 @@ def picture_format(path: str | Path) -> str:
 def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = _DPI) -> None:
     """Write ``figure`` as ``kind`` (png, svg or pdf; by default what the name of ``file`` says).
 
-    The same figure gives the same bytes: no date goes in. An existing file is replaced.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-    file : path or binary file
-    kind : str, optional
-    dpi : float
-        Dots per inch of a PNG, and of the surfaces inside an SVG or PDF.
+    The same figure gives the same bytes: no date goes in. An existing file is replaced. ``dpi``: dots per inch of a
+    PNG, and of the surfaces inside an SVG or PDF.
 
     Raises
     ------

@@ -102,7 +102,7 @@ def match_figure(
         beyond = shown[carried >= 0].max(initial=0.0) > end
         add_error_bar(figure, place, end, f"geodesic error ({UNIT})", beyond=bool(beyond), text=10 * wide)
     if title:
-        figure.text(0.5, 1 - 0.12 / height, title, ha="center", va="top", color="black", fontsize=12)
+        figure.text(0.5, 1 - 0.12 / height, title, ha="center", va="top", color="black", fontsize=12, parse_math=False)
     return figure
 
 

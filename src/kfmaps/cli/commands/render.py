@@ -63,7 +63,7 @@ def render_pair(
         target_mesh,
         truth=known,
         limit=None if limit is None else check_positive(limit, "--limit") / 100,
-        title=_plain(title),
+        title=title,
         view=_view(towards, up),
     )
     _save(figure, output, dpi, json, force)
@@ -157,11 +157,6 @@ def _save(figure: Figure, output: Path, dpi: float, json: bool, force: bool) -> 
 
 def _results(folder: Path) -> list[Result]:
     return all_results(folder, str(read_run_spec(folder)["digest"]))
-
-
-def _plain(title: str | None) -> str | None:
-    """A title in which a dollar sign is a dollar sign."""
-    return None if title is None else title.replace("$", r"\$")
 
 
 def _view(towards: tuple[float, float, float] | None, up: tuple[float, float, float] | None) -> View | None:
