@@ -86,9 +86,10 @@ class Setting:
             return f"{self.low:g} to {f'{self.high:g}' if self.high is not None else f'below {self.below:g}'}"
         return "" if self.low is None else f"at least {self.low:g}"
 
-    def check(self, value: object, label: str) -> None:
+    def check(self, value: object, label: str, remedy: str = "") -> None:
         """Raise :class:`InvalidInput`, beginning with ``label``, when the field cannot have ``value``."""
-        fits, wanted, remedy = self._judge(value)
+        fits, wanted, usual = self._judge(value)
+        remedy = remedy or usual
         if fits or (value is None and self.optional):
             return
         if not wanted:

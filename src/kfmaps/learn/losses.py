@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import torch
 
-from kfmaps._arrays import check_count, check_positive, refuse
+from kfmaps._arrays import check_positive, refuse
+from kfmaps._records import setting, settings_of, settings_record
 from kfmaps.fmap.nearest import nearest
 from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import Basis
@@ -34,45 +34,20 @@ LOSSES = {
 _MAX_COUPLED = (400, 1000)  # largest number of target and source points of the coupling loss
 
 
-@dataclass(frozen=True)
+@settings_record
 class TrainingOptions:
-    """How to learn.
+    """How to learn. Most parameters are logarithms, so that a rate of 0.1 changes a weight by about a tenth a step."""
 
-    Attributes
-    ----------
-    losses : mapping of str to float
-        Weights of :data:`kfmaps.learn.LOSSES`.
-    epochs : int
-        Largest number of passes through all pairs.
-    batch : int
-        Number of pairs whose gradients are averaged for one step.
-    rate : float
-        Adam's, which falls to zero over the epochs as half a cosine. Most parameters are logarithms, so 0.1 changes a
-        weight by about a tenth a step.
-    patience : int
-        Number of epochs without a better mean over the held-out pairs, after which learning stops.
-    temperature : float
-        Of soft point maps, see :func:`soft_point_map`.
-    seconds : float
-        No further epoch begins that would, at the pace so far, end later.
-    solver : CG
-        For maps and derivatives.
-    operator_rtol : float
-        Part of the features' weight that commutativity may leave out; 0 makes the gradient exact and slow.
-    seed : int
-        For the order of the pairs and the points of the coupling loss.
-    """
-
-    losses: Mapping[str, float] = field(default_factory=lambda: {"geodesic": 1.0})
-    epochs: int = 5
-    batch: int = 2
-    rate: float = 0.1
-    patience: int = 3
-    temperature: float = 0.03
-    seconds: float = math.inf
-    solver: CG = field(default_factory=lambda: CG(rtol=1e-4, max_iter=500))
-    operator_rtol: float = 1e-3
-    seed: int = 0
+    losses: Mapping[str, float] = setting(lambda: {"geodesic": 1.0}, "weights of :data:`kfmaps.learn.LOSSES`")
+    epochs: int = setting(5, "largest number of passes through all pairs", low=1)
+    batch: int = setting(2, "number of pairs whose gradients are averaged for one step", low=1)
+    rate: float = setting(0.1, "Adam's, which falls to zero over the epochs as half a cosine", above=0)
+    patience: int = setting(3, "epochs without a better mean over held-out pairs, after which learning stops", low=1)
+    temperature: float = setting(0.03, "of soft point maps, see :func:`soft_point_map`", above=0)
+    seconds: float = setting(math.inf, "no further epoch begins that would, at the pace so far, end later")
+    solver: CG = setting(lambda: CG(rtol=1e-4, max_iter=500), "for maps and derivatives")
+    operator_rtol: float = setting(1e-3, "part of the features' weight that commutativity leaves out", low=0, below=1)
+    seed: int = setting(0, "for the order of the pairs and the points of the coupling loss", low=0)
 
     def __post_init__(self) -> None:
         unknown = sorted(set(self.losses) - set(LOSSES))
@@ -80,12 +55,11 @@ class TrainingOptions:
             raise refuse("losses", "some of " + ", ".join(LOSSES), ", ".join(unknown) or "none", "choose among them")
         for name, weight in self.losses.items():
             check_positive(weight, f"weight of the loss {name}")
-        for name in ("epochs", "batch", "patience"):
-            check_count(getattr(self, name), name)
-        check_positive(self.rate, "rate", "0.1 is usual")
-        check_positive(self.temperature, "temperature", "0.03 is usual")
         if not self.seconds > 0:
             raise refuse("seconds", "a number above zero", repr(self.seconds), "leave it out for no limit")
+        for name, one in settings_of(TrainingOptions).items():
+            if name not in ("losses", "seconds"):
+                one.check(getattr(self, name), name, "compare with kfmaps learn --help")
 
 
 def functional_map(model: Model, pair: TrainingPair, solver: CG, operator_rtol: float = 0.0) -> torch.Tensor:
