@@ -43,23 +43,8 @@ def standard_streams(words: Sequence[str], command: str) -> Iterator[list[str]]:
     """Put files in the place of ``-`` among the words of a command.
 
     What is read comes from standard input. What is written goes to standard output when the block ends, and what the
-    command prints meanwhile to standard error.
-
-    Parameters
-    ----------
-    words : sequence of str
-    command : str
-        The command's name, which decides the format that is written.
-
-    Yields
-    ------
-    list of str
-        The words with the names of files.
-
-    Raises
-    ------
-    InvalidInput
-        When there are two ``-`` of a kind, or the command writes a folder.
+    command prints meanwhile to standard error. The name of the ``command`` decides the format that is written. Two
+    ``-`` of a kind are refused, and one where a command writes a folder.
     """
     places = [i for i, word in enumerate(words) if _STREAM.fullmatch(word)]
     writes = [i for i in places if i and words[i - 1] in _OUTPUTS]

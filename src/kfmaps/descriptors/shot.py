@@ -160,20 +160,8 @@ def shot(
 def mirror_shot(descriptors: np.ndarray) -> np.ndarray:
     """Return what :func:`shot` would give on the mirror image of the shape: the azimuths in reverse order.
 
-    Matching ``shot(mesh)`` with ``mirror_shot(shot(mesh))`` finds a left-right symmetry.
-
-    Parameters
-    ----------
-    descriptors : (n, 32 · b)
-
-    Returns
-    -------
-    (n, 32 · b)
-
-    Raises
-    ------
-    InvalidInput
-        If the number of columns is not a multiple of 32.
+    Matching ``shot(mesh)`` with ``mirror_shot(shot(mesh))`` finds a left-right symmetry. ``descriptors (n, 352)``; as
+    many come back.
     """
     n, width = descriptors.shape
     if width % _VOLUMES:

@@ -107,11 +107,6 @@ def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tu
     size : (float, float)
         Width and height in inches.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        To be written with :func:`~kfmaps.viz.save_figure`.
-
     Raises
     ------
     InvalidInput

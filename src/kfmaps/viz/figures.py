@@ -35,13 +35,7 @@ class NotebookFigure(Figure):
 
 
 def picture_format(path: str | Path) -> str:
-    """Return the format that the extension of ``path`` names: png, svg or pdf.
-
-    Raises
-    ------
-    InvalidInput
-        For any other extension.
-    """
+    """Return the format that the extension of ``path`` names: png, svg or pdf. Any other is refused."""
     return check_suffix(path, [f".{kind}" for kind in _FORMATS], "picture")[1:]
 
 
