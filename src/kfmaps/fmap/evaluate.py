@@ -193,11 +193,7 @@ def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
 def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
     """Return where a map sends the target's end of each true pair: ``target_to_source[truth_t]``, checked.
 
-    Parameters
-    ----------
-    truth_s, truth_t : (q,) int
-        Corresponding vertices, line k of one file to line k of the other.
-    target_to_source : (n_t,) int
+    ``truth_s (q,)`` and ``truth_t (q,)`` are corresponding vertices, line k of one file to line k of the other.
     """
     if len(truth_s) != len(truth_t):
         got = f"{len(truth_s)} and {len(truth_t)}"

@@ -135,16 +135,8 @@ def fit_bidirectional(
 
     The objective is the sum of both and ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²`` (Eynard et al.,
     Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is quadratic in each map;
-    they are minimised in turn, from the uncoupled ones, until the sum hardly falls.
-
-    Parameters
-    ----------
-    forth, back : Objective
-    inverse, adjoint : float
-        Weights of the coupling.
-    how : MinimizeOptions
-    start : pair of (k_t, k_s) and (k_s, k_t), or None each
-    progress : callable, optional
+    they are minimised in turn, from the uncoupled ones, until the sum hardly falls. ``start`` holds a map forth and one
+    back, or ``None``; ``how`` and ``progress`` are those of :func:`minimize`.
     """
     one = minimize(forth, how, start[0], progress)
     other = minimize(back, how, start[1], progress)

@@ -24,16 +24,7 @@ def truncate_features(
     that are dropped have operators whose summed squared norm is at most ``rtol`` of the sum of all bounds, which was
     1.03 times the operators' own. So far fewer operators need to be formed at all.
 
-    Parameters
-    ----------
-    source, target : Basis
-    features_s, features_t : (n_s, r), (n_t, r)
-    rtol : float
-        From 0 to below 1.
-
-    Returns
-    -------
-    features_s, features_t : (n_s, r'), (n_t, r')
+    ``features_s (n_s, r)`` and ``features_t (n_t, r)`` give (n_s, r') and (n_t, r'); ``rtol``: from 0 to below 1.
     """
     _check_rtol(rtol)
     xp = namespace(features_s, features_t)
@@ -55,16 +46,9 @@ def multiplication_operators(
     Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of the
     operators. One matrix product per block of vertices; no n × k² array.
 
-    Parameters
-    ----------
-    basis : Basis
-    features : (n, r)
-    block : int
-        Vertices of one product.
-    threads : int, optional
-    single : bool
-        Whether products of NumPy arrays are in single precision. Blocks are summed in double: operators differ by less
-        than ``block`` · 6e-8 of the norm of their summands, by 1e-7 as a rule.
+    ``features (n, r)``; ``block``: vertices of one product, on one of ``threads``; ``single``: whether products of
+    NumPy arrays are in single precision. Blocks are summed in double: operators differ by less than ``block`` · 6e-8 of
+    the norm of their summands, by 1e-7 as a rule.
     """
     n, k = basis.functions.shape
     check(features, "features", shape=(n, None), remedy="give one row per vertex")
@@ -131,11 +115,7 @@ def truncate_operators(packed_s: Array, packed_t: Array, rtol: float) -> tuple[A
     hold at most ``rtol`` of the summed squared norm of all operators of both shapes, which bounds what leaving them out
     can change in the energy. With ``rtol=0`` only null operators go.
 
-    Parameters
-    ----------
-    packed_s, packed_t : (r, k_s(k_s+1)/2), (r, k_t(k_t+1)/2)
-    rtol : float
-        From 0 to below 1.
+    ``packed_s (r, k_s(k_s+1)/2)`` and ``packed_t (r, k_t(k_t+1)/2)``; ``rtol``: from 0 to below 1.
     """
     _check_rtol(rtol)
     kept = _strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)

@@ -125,13 +125,7 @@ class GramTerm:
 
 
 def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> GramTerm:
-    """Return the preservation of features, ``½‖C Φ_s⁺ W_s − Φ_t⁺ W_t‖²``.
-
-    Parameters
-    ----------
-    source, target : Basis
-    features_s, features_t : (n_s, r), (n_t, r)
-    """
+    """Return the preservation of ``features_s (n_s, r)``, ``features_t (n_t, r)``: ``½‖C Φ_s⁺ W_s − Φ_t⁺ W_t‖²``."""
     check_same_count(features_s, features_t)
     coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
     return GramTerm(

@@ -133,15 +133,7 @@ class ZoomOut:
         al., Continuous and orientation-preserving correspondences via functional maps, 2018, couple the two likewise;
         the mean is ours). Swapping the shapes and the maps swaps the answers.
 
-        Parameters
-        ----------
-        C, back : (k_t, k_s), (k_s, k_t)
-        source, target : Basis
-        progress, threads, guide : as in :meth:`__call__`
-
-        Returns
-        -------
-        forth, back : Refined
+        ``C (k_t, k_s)`` and ``back (k_s, k_t)``; ``progress``, ``threads`` and ``guide`` as in :meth:`__call__`.
 
         Raises
         ------
@@ -230,13 +222,7 @@ def fit_functional_map(points: np.ndarray, source: Basis, target: Basis, k: int,
     quite, so the map is theirs by least squares. Undamped that follows the noise of the points when they are few for k;
     plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
 
-    Parameters
-    ----------
-    points : (n_t,) int64
-        Rows of ``source`` for those of ``target``.
-    source, target : Basis
-    k : int
-    ridge : float
+    ``points (n_t,)``: rows of ``source`` for those of ``target``.
     """
     if not isinstance(target, SampledBasis):
         return to_functional(points, source.truncate(k), target.truncate(k))
@@ -310,12 +296,8 @@ def batched_zoomout(
 def nearest_samples(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, cost: np.ndarray | None = None) -> np.ndarray:
     """Return the nearest image of a source sample for each target sample, (m, q_t).
 
-    Parameters
-    ----------
-    C : (m, k, k) float32
-    phi_s, phi_t : (q_s, k'), (q_t, k') float32
-        Functions at the samples, at least k.
-    cost : see :func:`batched_zoomout`
+    ``C (m, k, k)`` float32; ``phi_s (q_s, k')`` and ``phi_t (q_t, k')`` float32: functions at the samples, at least k;
+    ``cost``: see :func:`batched_zoomout`.
     """
     k = C.shape[1]
     # One column more holds half the squared length, so that the product is the whole score.

@@ -24,15 +24,8 @@ def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None =
     """Return farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
 
     The first is a random row, each next one the row farthest from all taken. It stops early when every row equals a
-    taken one.
-
-    Parameters
-    ----------
-    X : (n, d)
-    count : int
-    rng : seed or Generator
-    pool : int or None
-        Of more rows (but at least ``4 count``) that many are drawn first, so that the cost does not grow with n.
+    taken one. Of more rows ``X (n, d)`` than ``pool`` (but at least ``4 count``) that many are drawn first, with
+    ``rng``, so that the cost does not grow with n.
     """
     X = to_numpy(X)
     check_count(count, "sample count", high=len(X))
