@@ -86,17 +86,22 @@ def _select_different(states: np.ndarray, distances: np.ndarray, most: int, half
     They differ in at least one of their places or, with ``half``, in half of them.
     """
     kept: list[int] = []
-    left, last = np.ones(len(states), dtype=bool), states[:, -1]
+    left, near, columns = np.ones(len(states), dtype=bool), distances <= _MIN_DISTANCE, np.ascontiguousarray(states.T)
     for i in range(len(states)):
         if len(kept) == most:
             break
         if not left[i]:
             continue
         kept.append(i)
-        # Most differ in the last place already.
-        rows = (left & (half | (distances[last[i]] <= _MIN_DISTANCE)[last])).nonzero()[0]
-        off = distances[states[i], states[rows]]
-        left[rows[(np.median(off, axis=1) if half else off.max(axis=1)) <= _MIN_DISTANCE]] = False
+        rows = left.nonzero()[0]
+        if half:
+            rows = rows[np.median(distances[states[i], states[rows]], axis=1) <= _MIN_DISTANCE]
+        else:
+            for column in columns[::-1]:  # most differ in the last place already
+                rows = rows[near[column[i]].take(column.take(rows))]
+                if len(rows) == 0:
+                    break
+        left[rows] = False
     return np.array(kept, dtype=np.int64)
 
 

@@ -33,8 +33,9 @@ from kfmaps.matching.partial.scale_search import (
     SCALES,
     TRIALS,
     Placement,
-    refine_placement,
     search_scale,
+    settle,
+    settle_again,
     try_scales,
 )
 from kfmaps.matching.score import SCORE, select_distinct
@@ -136,12 +137,13 @@ def _scales_differ(one: Placement, other: Placement) -> bool:
 def _likely_placements(pair: PartPair, scales: list[float], count: int) -> list[Placement]:
     """The placements of all samples that are worth a registration, by relaxation and by beam searches."""
     rough, beams = candidate_placements(pair, scales, count)
-    full = parallel(lambda one: refine_placement(pair, one), [*rough, *beams], pair.threads)
+    full = parallel(lambda one: settle(pair, one), [*rough, *beams], pair.threads)
     # Few samples of a beam search were placed by their descriptors: its score is too low before registration.
     by_relaxation, by_beams = (
         sorted(some, key=lambda one: -one.score) for some in (full[: len(rough)], full[len(rough) :])
     )
-    return select_distinct([*by_relaxation[: count + 1], *by_beams[:2]], _placed_differently, count + 3)
+    likely = select_distinct([*by_relaxation[: count + 1], *by_beams[:2]], _placed_differently, count + 3)
+    return parallel(lambda one: settle_again(pair, one), likely, pair.threads)
 
 
 def _placed_differently(one: Placement, other: Placement) -> bool:

@@ -148,17 +148,24 @@ def _at_scales(
 
 
 def refine_placement(pair: PartPair, one: Placement) -> Placement:
-    """Place all samples, and find the scale with them unless it is known.
+    """Place all samples, and find the scale with them unless it is known: :func:`settle` before and after descriptors
+    are computed at the scale that was found."""
+    return settle_again(pair, settle(pair, one))
 
-    There are three reassignments before and three after descriptors are computed at the scale that was found.
-    """
+
+def settle(pair: PartPair, one: Placement) -> Placement:
+    """Place all samples three times, and find the scale with them unless it is known."""
     least = LEAST_MARKED_SCALE if pair.part.n_landmarks else LEAST_SCALE
-    for repeated in range(2):
-        for _ in range(3):
-            scale, one = one.scale, place_all(pair, one)
-            if not pair.fixed_scale:
-                longer = scale_change(pair.bounds(scale), pair.whole.distances, one.placed)
-                one = replace(one, scale=float(np.clip(scale * longer, least, MOST_SCALE)))
-        if not repeated and not pair.fixed_scale:
-            one = replace(one, similarity=shot_similarity(pair, one.scale, one.params))
+    for _ in range(3):
+        scale, one = one.scale, place_all(pair, one)
+        if not pair.fixed_scale:
+            longer = scale_change(pair.bounds(scale), pair.whole.distances, one.placed)
+            one = replace(one, scale=float(np.clip(scale * longer, least, MOST_SCALE)))
     return one
+
+
+def settle_again(pair: PartPair, one: Placement) -> Placement:
+    """Return what :func:`settle` does by descriptors at the scale of the placement."""
+    if not pair.fixed_scale:
+        one = replace(one, similarity=shot_similarity(pair, one.scale, one.params))
+    return settle(pair, one)
