@@ -13,11 +13,10 @@ import pytest
 
 from collecting import done, plan_of, write_collection
 from kfmaps.batch.layout import Pair
-from kfmaps.batch.page import PAGE, AgreementSection, summary_page
+from kfmaps.batch.page import PAGE, AgreementSection, _error_limit, summary_page
 from kfmaps.batch.results import (
     Result,
     all_results,
-    fitting_limit,
     read_result,
     result_path,
     summarize,
@@ -116,10 +115,10 @@ def test_columns_of_which_nothing_is_known_are_left_out() -> None:
 
 def test_colours_end_where_the_errors_do() -> None:
     base = some_results()[0]
-    assert fitting_limit([replace(base, error_mean=0.012)]) == 0.05
-    assert fitting_limit([replace(base, error_mean=0.012), replace(base, error_mean=0.6)]) == 0.05
-    assert fitting_limit([replace(base, error_mean=0.6)]) == 0.5
-    assert fitting_limit([]) == 0.5
+    assert _error_limit([replace(base, error_mean=0.012)]) == pytest.approx(0.04)
+    assert _error_limit([replace(base, error_mean=0.012), replace(base, error_mean=0.6)]) == pytest.approx(0.04)
+    assert _error_limit([replace(base, error_mean=0.6)]) == pytest.approx(2)
+    assert _error_limit([]) is None
 
 
 def test_numbers_of_the_summary() -> None:

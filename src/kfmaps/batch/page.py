@@ -23,7 +23,7 @@ from kfmaps.api import render
 from kfmaps.batch.consistent import ConsistentResult, map_in_use
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, describe_result, fitting_limit, summarize, worst_first
+from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, describe_result, summarize, worst_first
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, ShapeStatistics
 from kfmaps.batch.work import PairTask, map_path, true_vertices
@@ -33,6 +33,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text
 from kfmaps.viz import Curve, curves_figure, mean_curve, save_figure
+from kfmaps.viz.colors import error_limit
 from kfmaps.viz.document import data_address, environment, policy
 from kfmaps.viz.figures import make_transparent
 from kfmaps.viz.matches import values_figure
@@ -87,13 +88,13 @@ def write_page(
     agreement = AgreementSection()
     if consistent is not None:
         replaced = [r for r in consistent.results if r.changed and r.pair in consistent.before]
-        changed = _pictures(tasks, replaced, worst, fitting_limit(consistent.results), consistent.before)
+        changed = _pictures(tasks, replaced, worst, _error_limit(consistent.results), consistent.before)
         agreement = AgreementSection(changed, consistent.doubted, _specimens(plan, consistent.shapes))
     page = summary_page(
         name,
         results,
         read_run_spec(plan.folder),
-        _pictures(tasks, ordered, worst, fitting_limit(results)),
+        _pictures(tasks, ordered, worst, _error_limit(results)),
         len({r.pair for r in results} | tasks.keys()),
         pages,
         agreement,
@@ -226,11 +227,18 @@ def _quiet_mesh(path: str) -> Mesh:
         return read_mesh(path)
 
 
+def _error_limit(results: Sequence[Result]) -> float | None:
+    """Where the colours of errors end in all pictures, so that they can be compared: thrice that of maps not bad."""
+    errors = np.array([r.error_mean for r in results if r.error_mean is not None])
+    right = errors[errors <= BAD] if (errors <= BAD).any() else errors
+    return error_limit(3 * right) if len(right) else None
+
+
 def _pictures(
     tasks: Mapping[Pair, PairTask],
     results: Iterable[Result],
     count: int,
-    limit: float,
+    limit: float | None,
     before: Mapping[Pair, Result] | None = None,
 ) -> dict[str, str]:
     """Pictures of at most ``count`` pairs by caption; of those with a result ``before``, of the old map too.
@@ -258,7 +266,7 @@ def _pictures(
     return pictures
 
 
-def _draw(task: PairTask, limit: float, path: Path) -> str:
+def _draw(task: PairTask, limit: float | None, path: Path) -> str:
     """A map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
     source, target, truth = _read_pair(task)
     with one_blas_thread():

@@ -17,7 +17,6 @@ from kfmaps.io.atomic import csv_text, write_text
 FOLDER = "pairs"
 BAD = 0.05
 """A mean error above this counts as a wrong map."""
-_COLOR_LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)  # round errors at which the colours of pictures may end
 
 
 @dataclass(frozen=True)
@@ -174,17 +173,6 @@ def summarize(results: Sequence[Result]) -> Summary:
         changed=sum(bool(r.changed) for r in done),
         parts=sum(r.common_s is not None for r in done),
     )
-
-
-def fitting_limit(results: Sequence[Result]) -> float:
-    """Return where an error's colours end, in √area: a round number a little above the errors of maps that are right.
-
-    It is the same for all pictures of a collection, so that they can be compared.
-    """
-    errors = [r.error_mean for r in results if r.error_mean is not None]
-    usual = [e for e in errors if e <= BAD] or errors
-    wanted = 3 * max(usual, default=_COLOR_LIMITS[-1])
-    return next((limit for limit in _COLOR_LIMITS if limit >= wanted), _COLOR_LIMITS[-1])
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:

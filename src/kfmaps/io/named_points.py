@@ -65,7 +65,7 @@ def points_on_surface(
 
     ``confidence (q,)``: NaN where it is not given.
     """
-    lost = ~np.isfinite(positions).all(axis=1)
+    lost = ~np.asarray(np.isfinite(positions).all(axis=1))
     found = closest_points(np.where(lost[:, None], mesh.vertices[0], positions), mesh.vertices, mesh.faces)
     place = PointMap(found.faces, found.weights)
     known = np.full(len(names), np.nan) if confidence is None else confidence
