@@ -426,8 +426,8 @@ MUTANTS = tuple(
         ("squares / whole if whole > 0", "sizes[:kept] / whole if whole > 0", "test_shape_differences -k component"),
         ("if made.score > least and residual < own[i]", "if residual < own[i]", "test_collection -k loose"),
         (
-            "paths = _two_step_paths(self.around, self.ends, self.maps, i)",
-            "paths = _two_step_paths(self.around, self.ends, self.maps, i)[:0]",
+            "paths = _two_step_paths(self.ends, self.maps, i)",
+            "paths = _two_step_paths(self.ends, self.maps, i)[:0]",
             "test_collection -k family",
         ),
         (

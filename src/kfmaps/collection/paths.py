@@ -11,12 +11,9 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from kfmaps._arrays import refuse, to_numpy
+from kfmaps._arrays import to_numpy
 from kfmaps.fmap.convert import check_point_map, nearest
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
-
-Adjacency = Sequence[Sequence[tuple[int, int]]]
-"""Of each shape its neighbours, with the number of the edge between."""
 
 
 @dataclass(frozen=True)
@@ -27,18 +24,6 @@ class MapPath:
     shapes: tuple[int, ...]
     edges: tuple[int, ...]
     probability: float
-
-
-def adjacency(count: int, ends: Sequence[tuple[int, int]]) -> Adjacency:
-    """Return the neighbours of each shape, and the number of the edge to each.
-
-    ``count``: number of shapes; ``ends``: the shapes of each edge.
-    """
-    around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
-    for number, (a, b) in enumerate(ends):
-        around[a].append((b, number))
-        around[b].append((a, number))
-    return around
 
 
 def best_path(
@@ -81,8 +66,6 @@ def compose_maps(maps: Sequence[np.ndarray]) -> np.ndarray:
 
     ``maps[i] (n_{i+1},)`` names for each vertex of the path's shape i + 1 one of shape i.
     """
-    if not maps:
-        raise refuse("maps", "at least one", "none", "give those between neighbours on the path")
     found = np.asarray(maps[-1])
     for before in reversed(maps[:-1]):
         before = np.asarray(before)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps.collection.paths import Adjacency, adjacency, best_path
+from kfmaps.collection.paths import best_path
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, is_same_map, with_better_score
 from kfmaps.collection.synchronization import (
     MAX_LOG_ODDS,
@@ -137,7 +137,6 @@ class _Repair:
         self.maps = [list(several) for several in maps]
         self.given = [len(several) for several in maps]
         self.paths: list[list[CyclePath]] = [[] for _ in ends]  # of the candidates beyond those given
-        self.around = adjacency(count, ends)
         self.signs, self.sync = _synchronize(count, ends, self.maps)
 
     def run(self) -> RepairResult:
@@ -167,7 +166,7 @@ class _Repair:
         min_path_probability = 0.3  # least probability that all maps of a path are right
         for i in edges:
             likely = best_path(self.count, self.ends, chances, *self.ends[i], without=i)
-            paths = _two_step_paths(self.around, self.ends, self.maps, i)
+            paths = _two_step_paths(self.ends, self.maps, i)
             if likely is not None and likely.probability >= min_path_probability:
                 walk = zip(likely.edges, likely.shapes, strict=False)
                 steps = tuple(CycleStep(e, best[e], self.ends[e][0] == at) for e, at in walk)
@@ -230,19 +229,17 @@ class _Repair:
         return found
 
 
-def _two_step_paths(
-    around: Adjacency, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], edge: int
-) -> list[CyclePath]:
+def _two_step_paths(ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], edge: int) -> list[CyclePath]:
     """Return at most three paths of two steps around an edge, by the maps in use, best scores first.
 
     What most candidates say may be wrong together. These say what the maps say that a search thought best.
     """
     source, target = ends[edge]
     near: dict[int, dict[int, int]] = {source: {}, target: {}}
-    for here, others in near.items():
-        for other, i in around[here]:
-            if i != edge and (other not in others or maps[i][0].score > maps[others[other]][0].score):
-                others[other] = i
+    for i in sorted(range(len(ends)), key=lambda i: maps[i][0].score):  # of several between two shapes the best
+        for here, other in (ends[i], ends[i][::-1]):
+            if here in near and i != edge:
+                near[here][other] = i
     found = []
     for middle in sorted(near[source].keys() & near[target].keys() - {source, target}):
         first, second = near[source][middle], near[target][middle]
