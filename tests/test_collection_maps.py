@@ -32,14 +32,13 @@ def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     probes = scoring_samples(a), scoring_samples(b)
     rng = np.random.default_rng(0)
-    true, random, shifted = score_pair_maps(
-        [np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes
-    )
+    several = np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)
+    true, random, shifted = score_pair_maps([(points, False) for points in several], (a, b), probes)
     assert true.orientation > 0.8
     assert true.score > max(random.score, shifted.score) + 1
     mirrored = mirror_image(b)
     probes = probes[0], scoring_samples(mirrored)
-    turned, back = score_pair_maps([np.arange(N)] * 2, a, mirrored, probes, [False, True])
+    turned, back = score_pair_maps([(np.arange(N), back) for back in (False, True)], (a, mirrored), probes)
     assert turned.orientation < 0
     assert (turned.reversed, back.reversed) == (False, True)
     assert back.score == pytest.approx(true.score, abs=0.1)

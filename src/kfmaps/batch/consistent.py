@@ -33,16 +33,14 @@ from kfmaps.batch.work import (
     save_pair_map,
 )
 from kfmaps.collection.consistency import (
-    StoredMap,
     common_bases,
     compose_path,
     refine_replacement,
-    score_candidates,
     score_stored,
     stored_candidates,
 )
 from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair_maps
-from kfmaps.collection.scored_map import ScoredMap
+from kfmaps.collection.scored_map import ScoredMap, StoredMap, score_pair_maps
 from kfmaps.io import load_map
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
@@ -183,7 +181,7 @@ def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
         with one_blas_thread():
             samples = pair_samples(job.task, shapes)
             if job.steps:
-                maps = score_candidates([_compose(job)], shapes, samples)
+                maps = score_pair_maps([_compose(job)], shapes, samples)
             else:
                 file = load_map(map_path(Path(job.task.folder), job.task.key))
                 lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)

@@ -12,11 +12,9 @@ from kfmaps._progress import CountProgress
 from kfmaps._records import short_repr
 from kfmaps._threads import one_blas_thread
 from kfmaps.collection.consistency import (
-    StoredMap,
     common_bases,
     compose_path,
     refine_replacement,
-    score_candidates,
     score_stored,
     stored_candidates,
 )
@@ -24,7 +22,7 @@ from kfmaps.collection.differences import LimitShape, shape_distances
 from kfmaps.collection.pair_graph import signature, signature_graph
 from kfmaps.collection.paths import best_path
 from kfmaps.collection.repair import CyclePath, repair_maps
-from kfmaps.collection.scored_map import ScoredMap
+from kfmaps.collection.scored_map import ScoredMap, StoredMap, score_pair_maps
 from kfmaps.config import Config
 from kfmaps.io import check_map
 from kfmaps.io.convert import MapLike, ShapeLike, as_map, as_mesh
@@ -248,7 +246,7 @@ def _collected(
 
     def score(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
         with one_blas_thread():
-            return [score_candidates([compose(p)], whole[i].shapes, whole[i].samples)[0] for i, p in asked]
+            return [score_pair_maps([compose(p)], whole[i].shapes, whole[i].samples)[0] for i, p in asked]
 
     ends, scores = [pair.ends for pair in whole], [pair.scores for pair in whole]
     repaired = repair_maps(len(names), ends, scores, score)

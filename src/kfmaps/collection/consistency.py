@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps.collection.differences import LimitShape, component_limit_shapes
 from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.repair import RepairResult, Replacement
-from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_pair_maps, with_better_score
+from kfmaps.collection.scored_map import ScoredMap, StoredMap, candidate_maps, score_pair_maps, with_better_score
 from kfmaps.collection.synchronization import Edge
 from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
@@ -17,13 +17,9 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.io import check_map
 from kfmaps.matching.finish import KnownMap, match_from_map
 from kfmaps.matching.quality import ShapeSamples
-from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.score import probability_word
 from kfmaps.shape import Shape
-
-StoredMap = tuple[np.ndarray, bool]
-"""A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""
 
 
 def common_bases(
@@ -60,23 +56,11 @@ def score_stored(
     maps = stored_candidates(file, reversed)
     raw = file.fit.raw_functional_map
     if raw is None:
-        return score_candidates(maps, shapes, samples)
+        return score_pair_maps(maps, shapes, samples)
     source, target = (shape.basis for shape in shapes)
     points = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target, 1)
-    first, before, *others = score_candidates([maps[0], (points, maps[0][1]), *maps[1:]], shapes, samples)
+    first, before, *others = score_pair_maps([maps[0], (points, maps[0][1]), *maps[1:]], shapes, samples)
     return [with_better_score(first, before), *others]
-
-
-def score_candidates(
-    maps: Sequence[StoredMap], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
-) -> list[ScoredMap]:
-    """Score candidates of one pair, on its cleaned shapes.
-
-    ``shapes``: source and target.
-    """
-    across = reindexing(*shapes)
-    points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
-    return score_pair_maps(points, across.source, across.target, samples, [turned for _, turned in maps])
 
 
 def compose_path(steps: Sequence[tuple[StoredMap, Basis | None]]) -> StoredMap:

@@ -13,9 +13,13 @@ from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, Candida
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching.candidates import FINE, FINE_WEIGHTS, refine_batch
 from kfmaps.matching.quality import ShapeSamples, map_quality, mirror_samples
+from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.matching.score import SCORE, probability
 from kfmaps.shape import Shape
+
+StoredMap = tuple[np.ndarray, bool]
+"""A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,31 +34,28 @@ class ScoredMap:
 
 
 def score_pair_maps(
-    maps: Sequence[np.ndarray],
-    source: Shape,
-    target: Shape,
-    probes: tuple[ShapeSamples, ShapeSamples],
-    reversed: Sequence[bool] | None = None,
+    maps: Sequence[StoredMap], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
 ) -> list[ScoredMap]:
-    """Score ``maps (n_t,)`` of one pair, a source vertex for each target vertex, by the ``probes`` of both shapes.
+    """Score maps of one pair, on its cleaned shapes, by the ``samples`` of both; ``shapes``: source and target.
 
     Each is refined on the samples first, as candidates of a search are: then a map that was finished on all vertices
     and one that was not are comparable, and scores mean what they mean there.
     """
-    turned = [False] * len(maps) if reversed is None else list(reversed)
-    k = min(FINE, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    bases = source.basis.truncate(k), target.basis.truncate(k)
-    rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
-    found: list[ScoredMap | None] = [None] * len(maps)
-    for back in sorted(set(turned)):
-        on = build_sample_pair(probes[0], mirror_samples(probes[1]) if back else probes[1])
-        rows = [i for i, one in enumerate(turned) if one == back]
+    across = reindexing(*shapes)
+    k = min(FINE, len(across.source.basis.eigenvalues), len(across.target.basis.eigenvalues))
+    bases = across.source.basis.truncate(k), across.target.basis.truncate(k)
+    points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
+    rough = np.stack([to_numpy(to_functional(one, *bases)) for one in points])
+    found: dict[int, ScoredMap] = {}
+    for back in sorted({turned for _, turned in maps}):
+        on = build_sample_pair(samples[0], mirror_samples(samples[1]) if back else samples[1])
+        rows = [i for i, (_, turned) in enumerate(maps) if turned == back]
         weights = (FINE_WEIGHTS[0][0] if on.descriptor_cost is not None else 0.0, 0.0)
-        settled, points = refine_batch(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
-        for i, C, at in zip(rows, settled, points, strict=True):
+        settled, places = refine_batch(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
+        for i, C, at in zip(rows, settled, places, strict=True):
             quality = map_quality(C, on.source, on.target, at)
             found[i] = ScoredMap(C[:N_FUNCTIONS, :N_FUNCTIONS], quality.score, quality.orientation, back)
-    return [one for one in found if one is not None]
+    return [found[i] for i in range(len(maps))]
 
 
 def with_better_score(one: ScoredMap, other: ScoredMap) -> ScoredMap:
