@@ -298,8 +298,8 @@ def accessor(tree: dict[str, Any], **more: Any) -> None:
         (lambda t: t["accessors"][primitive(t)["indices"]].update(componentType=5126), "unsigned vertex numbers"),
         (lambda t: primitive(t).update(mode=6), "Export it as triangles"),
         (lambda t: primitive(t).update(mode=1), "vertices, got none"),
-        (lambda t: t.update(meshes=[]), "complete glTF 2.0 file"),
-        (lambda t: t.pop("bufferViews"), "complete glTF 2.0 file"),
+        (lambda t: t.update(meshes=[]), "complete .glb file"),
+        (lambda t: t.pop("bufferViews"), "complete .glb file"),
     ],
 )
 def test_bad_glb(tmp_path: Path, change: Any, part: str) -> None:
@@ -336,7 +336,7 @@ def test_glb_with_other_values_in_its_tree(tmp_path: Path) -> None:
 
 def test_glb_of_another_version_or_none_at_all(tmp_path: Path) -> None:
     assert "version 1" in refused(tmp_path / "a.glb", GLB[:4] + b"\1" + GLB[5:])
-    assert "complete glTF" in refused(tmp_path / "a.glb", b"hello")
-    assert "complete glTF" in refused(tmp_path / "a.gltf", b"[]")
+    assert "complete .glb file" in refused(tmp_path / "a.glb", b"hello")
+    assert "complete .gltf file" in refused(tmp_path / "a.gltf", b"[]")
     assert "got version 1.0" in refused(tmp_path / "a.gltf", b'{"asset": {"version": "1.0"}}')
     assert "as it says" in refused(tmp_path / "a.glb", GLB + b"x")

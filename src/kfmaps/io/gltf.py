@@ -53,8 +53,7 @@ def parse_gltf(data: bytes, name: str) -> MeshFile:
     texture of all parts; else there is none. Specification: Khronos Group, "glTF 2.0",
     https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
     """
-    with complete_or_refuse(name, _WHOLE):
-        return _Scene(data, name).mesh_file()
+    return _Scene(data, name).mesh_file()
 
 
 def buffer_files(data: bytes, name: str) -> list[Path]:

@@ -20,7 +20,7 @@ from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
 from kfmaps.io.record import MeshFile, checked_colors
 from kfmaps.io.stl import parse_stl
-from kfmaps.io.text import as_table, check_suffix, clean_text, parse_rows, read_bytes
+from kfmaps.io.text import as_table, check_suffix, clean_text, complete_or_refuse, parse_rows, read_bytes
 from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
@@ -86,10 +86,9 @@ def read_shape_mesh(path: str | Path) -> Mesh:
 
 def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
     """Read ``path`` as :func:`read_mesh` does (``cloud`` too), with the colours and texture coordinates that it has."""
-    name = str(path)
-    reader = READERS[check_suffix(path, READERS, remedy="convert or rename the file")]
-    with np.errstate(all="ignore"):  # wild numbers are refused below
-        found = reader(read_bytes(path), name)
+    name, suffix = str(path), check_suffix(path, READERS, remedy="convert or rename the file")
+    with np.errstate(all="ignore"), complete_or_refuse(name, f"a complete {suffix} file"):  # wild numbers: see below
+        found = READERS[suffix](read_bytes(path), name)
     found = _place_unplaced(found, name)
     places, weights = found.mesh.vertices, None if found.skin is None else found.skin.weights
     arrays = {"vertices": places, "colors": found.colors, "texture": found.uv, "weights": weights, **found.morphs}

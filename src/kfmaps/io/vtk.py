@@ -13,7 +13,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, fan, split_polygons
-from kfmaps.io.text import REPAIR, complete_or_refuse
+from kfmaps.io.text import REPAIR
 
 REMEDY = "Save the surface as PLY in 3D Slicer or ParaView"
 TYPES = {
@@ -31,8 +31,7 @@ def parse_vtk(data: bytes, name: str) -> MeshFile:
     head = data.split(b"\n", 3)
     if len(head) < 4 or not head[0].startswith(b"# vtk DataFile"):
         raise refuse(name, "a VTK file", "another beginning", "check that the extension is right")
-    with complete_or_refuse(name, "a complete .vtk file"):
-        return _Legacy(data, name, len(data) - len(head[3]), head[2].strip().upper() == b"BINARY").read()
+    return _Legacy(data, name, len(data) - len(head[3]), head[2].strip().upper() == b"BINARY").read()
 
 
 class _Legacy:
@@ -119,11 +118,6 @@ class _Legacy:
 
 def parse_vtp(data: bytes, name: str) -> MeshFile:
     """Read an XML file (https://docs.vtk.org, "XML File Formats"): text, base64 or appended arrays, plain or zlib."""
-    with complete_or_refuse(name, "a complete .vtp file"):
-        return _read_xml(data, name)
-
-
-def _read_xml(data: bytes, name: str) -> MeshFile:
     head, mark, rest = data.partition(b"<AppendedData")
     if b"<!" in head.replace(b"<!--", b""):
         raise refuse(name, "XML without declarations of its own", "one", REMEDY)
