@@ -111,7 +111,7 @@ class Setting:
             if plain in types:
                 real = isinstance(value, number) and not isinstance(value, bool) and math.isfinite(value)
                 span = self._span()
-                return real and self._inside(float(value)), f"{words}{span and f', {span}'}", remedy
+                return real and self._inside(value), f"{words}{span and f', {span}'}", remedy
         if str in types:
             return isinstance(value, str), "text", remedy
         if any(get_origin(hint) is tuple for hint in types):
@@ -120,7 +120,7 @@ class Setting:
         own = len(records) < len(types) and callable(value) and not isinstance(value, type)
         return own or isinstance(value, records), "", remedy
 
-    def _inside(self, value: float) -> bool:
+    def _inside(self, value: Any) -> bool:
         bounds = ((self.above, gt), (self.low, ge), (self.high, le), (self.below, lt))
         return all(bound is None or holds(value, bound) for bound, holds in bounds)
 

@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 
 
 def match(
-    source: ShapeLike | Shape,
-    target: ShapeLike | Shape,
+    source: ShapeLike,
+    target: ShapeLike,
     config: Config | None = None,
     *,
     landmarks: LandmarksLike | None = None,
@@ -84,16 +84,12 @@ def match(
         When the eigensolver misses its tolerance.
     """
     _check_config(config)
-    shapes = [
-        shape if isinstance(shape, Shape) else as_mesh(shape, name)
-        for shape, name in ((source, "source"), (target, "target"))
-    ]
-    meshes = [shape.mesh if isinstance(shape, Shape) else shape for shape in shapes]
-    marks = as_landmarks(landmarks, (source, target), meshes)
+    given = (source, target)
+    meshes = [as_mesh(shape, name) for shape, name in zip(given, ("source", "target"), strict=True)]
+    first, second = (one if isinstance(one, Shape) else mesh for one, mesh in zip(given, meshes, strict=True))
+    marks = as_landmarks(landmarks, given, meshes)
     with _telling(progress) as report:
-        return matching.match(
-            shapes[0], shapes[1], config, landmarks=marks, descriptors=descriptors, rng=rng, progress=report
-        )
+        return matching.match(first, second, config, landmarks=marks, descriptors=descriptors, rng=rng, progress=report)
 
 
 def prepare(
@@ -126,7 +122,7 @@ def prepare(
 
 
 def transfer(
-    values: ArrayLike, found: MapLike, lost: ArrayLike | None = None, *, source: ShapeLike | Shape | None = None
+    values: ArrayLike, found: MapLike, lost: ArrayLike | None = None, *, source: ShapeLike | None = None
 ) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
@@ -152,11 +148,11 @@ def transfer(
     InvalidInput
         When the map names a vertex that has no value, or the source has another number of vertices.
     """
-    mesh = None if source is None else _mesh(source, "source")
+    mesh = None if source is None else as_mesh(source, "source")
     return carried(values, as_map(found, mesh), None if mesh is None else mesh.faces, lost)
 
 
-def geodesic_errors(source: ShapeLike | Shape, predicted: MapLike, true: TruthLike | PointMap) -> np.ndarray:
+def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | PointMap) -> np.ndarray:
     """Return the geodesic distance on the source from each predicted to its true point, divided by √area.
 
     Parameters
@@ -178,7 +174,7 @@ def geodesic_errors(source: ShapeLike | Shape, predicted: MapLike, true: TruthLi
     InvalidInput
         When the two differ in length, or name vertices that the source does not have.
     """
-    mesh = _mesh(source, "source")
+    mesh = as_mesh(source, "source")
     points = predicted if isinstance(predicted, PointMap) else as_map(predicted).target_to_source
     goal = true if isinstance(true, PointMap | tuple) else np.asarray(true)
     if isinstance(goal, tuple):
@@ -255,8 +251,8 @@ def zoomout(
 
 def render(
     found: MapLike,
-    source: ShapeLike | Shape | None = None,
-    target: ShapeLike | Shape | None = None,
+    source: ShapeLike | None = None,
+    target: ShapeLike | None = None,
     *,
     output: str | Path | None = None,
     truth: TruthLike | Truth | None = None,
@@ -308,8 +304,8 @@ def render(
 
 def view(
     found: MapLike,
-    source: ShapeLike | Shape | None = None,
-    target: ShapeLike | Shape | None = None,
+    source: ShapeLike | None = None,
+    target: ShapeLike | None = None,
     *,
     output: str | Path | None = None,
     truth: TruthLike | Truth | None = None,
@@ -364,10 +360,6 @@ def picture_html(found: Match, words: str) -> str:
     return figure_html(render(found), words)
 
 
-def _mesh(shape: ShapeLike | Shape, name: str) -> Mesh:
-    return shape.mesh if isinstance(shape, Shape) else as_mesh(shape, name)
-
-
 def _check_config(config: object) -> None:
     if config is not None and not isinstance(config, Config):
         raise refuse("config", "a Config", type(config).__name__, "give kfmaps.Config() or Config.paper(), say")
@@ -396,7 +388,7 @@ def _truth(truth: TruthLike | Truth, shapes: tuple[Mesh, Mesh]) -> Truth:
 
 
 def _map_and_shapes(
-    found: MapLike, source: ShapeLike | Shape | None, target: ShapeLike | Shape | None
+    found: MapLike, source: ShapeLike | None, target: ShapeLike | None
 ) -> tuple[Match, tuple[Mesh, Mesh]]:
     """A map and its two shapes: as given, else the match's own, else those that the map's file names."""
     from kfmaps.io.provenance import map_mesh
@@ -406,7 +398,7 @@ def _map_and_shapes(
     meshes = []
     for given, side in ((source, "source"), (target, "target")):
         if given is not None:
-            meshes.append(_mesh(given, side))
+            meshes.append(as_mesh(given, side))
         elif hasattr(found, side):
             meshes.append(getattr(found, side))
         elif isinstance(found, Match):

@@ -39,8 +39,8 @@ class HasPoints(Protocol):
 
 
 FileName = str | os.PathLike[str]
-ShapeLike = Mesh | FileName | np.ndarray | Sequence[ArrayLike] | HasVertices | HasPoints
-"""What a shape may be: a Mesh, a file, an array (n, 3), a pair of arrays, or another library's mesh."""
+ShapeLike = Mesh | Shape | FileName | np.ndarray | Sequence[ArrayLike] | HasVertices | HasPoints
+"""What a shape may be: a Mesh, a Shape, a file, an array (n, 3), a pair of arrays, or another library's mesh."""
 MapLike = Match | PointMap | FileName | ArrayLike
 """What a map may be: a match, points inside triangles, a file, or a source vertex for each target vertex."""
 LandmarksLike = FileName | ArrayLike | tuple[FileName, FileName]
@@ -61,7 +61,7 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
 
     Parameters
     ----------
-    shape : Mesh, path, pair of arrays (n, 3) and (f, 3), array (n, 3), or object
+    shape : Mesh, Shape, path, pair of arrays (n, 3) and (f, 3), array (n, 3), or object
         An object has ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D), or ``points`` with ``faces``
         (PyVista) or ``cells`` (meshio). Polygons become fans of triangles.
     name : str
@@ -72,8 +72,8 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
     InvalidInput
         On anything else, and as :func:`kfmaps.read_mesh`.
     """
-    if isinstance(shape, Mesh):
-        return shape
+    if isinstance(shape, Mesh | Shape):
+        return shape.mesh if isinstance(shape, Shape) else shape
     if is_file(shape):
         return read_mesh(Path(shape))
     try:

@@ -43,19 +43,15 @@ class Chosen:
 def with_settings(command: Callable[..., Any]) -> Callable[..., Any]:
     """Give ``command``, which takes ``settings: Chosen``, all options of a configuration in its place."""
     signature = inspect.signature(command, eval_str=True)
-    own = [p for p in signature.parameters.values() if p.name != "settings"]
-    named = {option.strip("-"): option for option in OPTIONS}
-    made = {name: _option(option) for name, option in named.items()}
-    parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own]
-    parameters += [
-        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=annotation, default=None)
-        for name, annotation in {**made, **_GENERAL}.items()
-    ]
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    parameters = [p.replace(kind=keyword) for p in signature.parameters.values() if p.name != "settings"]
+    made = {option.strip("-"): _option(option) for option in OPTIONS} | _GENERAL
+    parameters += [inspect.Parameter(name, keyword, annotation=kind, default=None) for name, kind in made.items()]
 
     @functools.wraps(command)
     def whole(**given: Any) -> Any:
-        options = {option: (OPTIONS[option][0], given.pop(name)) for name, option in named.items()}
-        options = {option: (path, value) for option, (path, value) in options.items() if value is not None}
+        values = {option: (path, given.pop(option.strip("-"))) for option, (path, _) in OPTIONS.items()}
+        options = {option: (path, value) for option, (path, value) in values.items() if value is not None}
         chosen = Chosen(given.pop("preset"), given.pop("config"), options, tuple(given.pop("assign") or ()))
         return command(settings=chosen, **given)
 
