@@ -31,7 +31,7 @@ import numpy as np
 from scipy.stats import bootstrap
 
 import kfmaps
-from kfmaps.batch.cache import load_shape, save_record
+from kfmaps.batch.cache import load_record, save_record
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.io import read_vertex_numbers
@@ -61,7 +61,7 @@ class Data:
 
     def shape(self, name: str) -> kfmaps.Shape:
         kept = self.cache and self.cache / f"{self.folder.name}-{name}.npz"
-        found = load_shape(kept, name) if kept and kept.exists() else None
+        found = load_record(kept, kfmaps.Shape) if kept and kept.exists() else None
         if found is None:
             path = next(self.folder / f"{name}{e}" for e in (".ply", ".off") if (self.folder / f"{name}{e}").exists())
             with warnings.catch_warnings():

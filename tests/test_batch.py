@@ -19,7 +19,6 @@ from kfmaps.batch.cache import (
     cached_samples,
     file_digest,
     load_record,
-    load_shape,
     save_record,
     shape_key,
 )
@@ -36,7 +35,7 @@ from kfmaps.io import load_map, read_mesh, read_vertex_numbers, write_mesh, writ
 from kfmaps.kernels.kernels import Linear
 from kfmaps.matching.match import match
 from kfmaps.matching.search import scoring_samples
-from kfmaps.shape import prepare
+from kfmaps.shape import Shape, prepare
 
 
 def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
@@ -44,9 +43,9 @@ def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
     shape = prepare(blob(200), config, name="b")
     path = tmp_path / "entry.npz"
     save_record(path, shape)
-    back = load_shape(path, "other")
+    back = load_record(path, Shape)
     assert back is not None
-    assert back.name == "other"
+    assert back.name == "b"
     assert back.seconds == shape.seconds
     for a, b in (
         (back.mesh.vertices, shape.mesh.vertices),
@@ -61,11 +60,11 @@ def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
 
 def test_damaged_entries_count_as_none(tmp_path: Path) -> None:
     path = tmp_path / "entry.npz"
-    assert load_shape(path, "b") is None
+    assert load_record(path, Shape) is None
     save_record(path, prepare(blob(200), CONFIG))
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
-    assert load_shape(path, "b") is None
+    assert load_record(path, Shape) is None
 
 
 def _arrays_of(record: Any, before: str = "") -> dict[str, Any]:
@@ -259,7 +258,7 @@ def test_a_shape_that_changes_under_way_is_refused(tmp_path: Path) -> None:
     task = plan.todo[0].source
     write_mesh(task.path, blob(210), force=True)
     assert "changed" in prepare_shape(task).reason
-    assert load_shape(Path(task.entry), "b") is None
+    assert load_record(Path(task.entry), Shape) is None
 
 
 def test_attempts_are_counted_across_kills(folder: Path, tmp_path: Path) -> None:

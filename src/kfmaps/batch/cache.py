@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -57,12 +56,6 @@ def shape_key(content: str, suffix: str, config: Config) -> str:
         },
         digits=32,
     )
-
-
-def load_shape(path: Path, name: str) -> Shape | None:
-    """Read a prepared shape; ``None`` when there is none or the entry is damaged, so that it is made again."""
-    shape = load_record(path, Shape)
-    return None if shape is None else replace(shape, name=name)
 
 
 def _samples_path(entry: Path, seed: int) -> Path:

@@ -18,7 +18,7 @@ import numpy as np
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_record
+from kfmaps.batch.cache import cached_samples, file_digest, load_record, save_record
 from kfmaps.batch.jobs import MAX_DEATHS
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
@@ -127,7 +127,7 @@ def attempts(folder: Path, key: str) -> int:
 def prepare_shape(task: ShapeTask) -> Prepared:
     """Prepare a shape unless the cache has it. A shape that cannot be prepared is told of, not raised."""
     entry = Path(task.entry)
-    if load_shape(entry, task.name) is not None:
+    if load_record(entry, Shape) is not None:
         return Prepared(task.name)
     begin(Path(task.folder), task.key)
     with capture_errors() as caught, one_blas_thread():
@@ -230,10 +230,10 @@ def now() -> str:
 
 def load_prepared(task: ShapeTask) -> Shape:
     """Return the prepared shape of a task, from the cache."""
-    shape = load_shape(Path(task.entry), task.name)
+    shape = load_record(Path(task.entry), Shape)
     if shape is None:
         raise refuse(f"prepared shape {task.name}", "an entry in the cache", "none", "run the command again")
-    return shape
+    return replace(shape, name=task.name)
 
 
 def pair_shapes(task: PairTask) -> tuple[Shape, Shape]:
