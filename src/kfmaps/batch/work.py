@@ -7,9 +7,9 @@ import os
 import platform
 import time
 import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -130,11 +130,14 @@ def prepare_shape(task: ShapeTask) -> Prepared:
     if load_record(entry, Shape) is not None:
         return Prepared(task.name)
     begin(Path(task.folder), task.key)
-    with capture_errors() as caught, one_blas_thread():
+
+    def prepared() -> dict[str, Any]:
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file as it was when the run began", "a changed one", "run the command again")
         save_record(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
-    return Prepared(task.name, caught.reason, tuple(caught.notes))
+        return {}
+
+    return Prepared(task.name, *_attempt(prepared)[1:])
 
 
 def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
@@ -167,12 +170,10 @@ def record_pair(
     attempt = begin(folder, task.key)
     for old in (result_file, path):  # of files that have changed since
         old.unlink(missing_ok=True)
-    made: dict[str, Any] = {"seconds": {}}
-    with capture_errors() as caught, one_blas_thread():
-        made = make()
-    made["seconds"]["total"] = time.perf_counter() - start
-    notes = (*values.pop("notes", ()), *caught.notes)
-    result = _make_result(task, caught.reason, inputs, attempts=attempt, notes=notes, **values, **made)
+    made, reason, notes = _attempt(make)
+    seconds = {**made.pop("seconds", {}), "total": time.perf_counter() - start}
+    notes = (*values.pop("notes", ()), *notes)
+    result = _make_result(task, reason, inputs, attempts=attempt, notes=notes, seconds=seconds, **values, **made)
     result_file.parent.mkdir(parents=True, exist_ok=True)
     write_result(result_file, result)
     return result
@@ -194,25 +195,16 @@ def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Res
     return Result(pair.source, pair.target, status, task.settings, inputs, reason=reason, **values)
 
 
-@dataclass
-class _Captured:
-    """What went wrong inside a block, and what was warned of."""
-
-    reason: str = ""
-    notes: list[str] = field(default_factory=list)
-
-
-@contextmanager
-def capture_errors() -> Iterator[_Captured]:
-    """Turn exceptions and our own warnings into text; one bad pair must not end the run."""
-    caught = _Captured()
-    with warnings.catch_warnings(record=True) as told:
+def _attempt(work: Callable[[], dict[str, Any]]) -> tuple[dict[str, Any], str, tuple[str, ...]]:
+    """Return what ``work`` returns, why it failed, and what was warned of; one bad pair must not end the run."""
+    done, reason = {}, ""
+    with warnings.catch_warnings(record=True) as told, one_blas_thread():
         warnings.simplefilter("always", KfmapsWarning)
         try:
-            yield caught
+            done = work()
         except Exception as error:
-            caught.reason = error_text(error)
-    caught.notes = [str(w.message) for w in told if issubclass(w.category, KfmapsWarning)]
+            reason = error_text(error)
+    return done, reason, tuple(str(w.message) for w in told if issubclass(w.category, KfmapsWarning))
 
 
 def error_text(error: Exception) -> str:
