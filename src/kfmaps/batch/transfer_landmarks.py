@@ -205,9 +205,8 @@ def carry_templates(
     unit = float(np.sqrt(surface_area(mesh)))
     carried, rivals = [], []
     for one in used:
-        file = map_path(folder, Pair(one.specimen, specimen).key)
-        known, chance = load_map(file), results[one.specimen].confidence
-        points = _carry_points(known, one.points, one.mesh, mesh, str(file), 1.0 if chance is None else chance)
+        chance = results[one.specimen].confidence
+        known, points = _carry(one, specimen, mesh, folder, 1.0 if chance is None else chance)
         carried.append(points)
         rivals.append(_rival_distance(known, one, mesh, points))
     proposals = _slide(np.stack([points.points for points in carried]), templates)
@@ -245,18 +244,18 @@ def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
     return ""
 
 
-def _carry_points(
-    known: Match, points: NamedPoints, source: Mesh, target: Mesh, name: str, chance: float
-) -> NamedPoints:
-    """Return points of the source on the target; those without counterpart are missing.
+def _carry(one: Template, specimen: str, mesh: Mesh, folder: Path, chance: float = 1.0) -> tuple[Match, NamedPoints]:
+    """Return the map from a template to a scan, and its landmarks there; those without counterpart are missing.
 
-    The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map ``name``.
+    The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map.
     """
-    ways = find_counterparts(known, source, target, name)
+    file = map_path(folder, Pair(one.specimen, specimen).key)
+    known = load_map(file)
+    ways = find_counterparts(known, one.mesh, mesh, str(file))
     trust = getattr(known, "local_confidence", None)  # a list of vertices has none
-    local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(trust)
-    carried = transfer_points(points, source, target, ways.place, local, known=ways.target, common=ways.source)
-    return replace(carried, confidence=carried.confidence * chance)
+    local = np.ones(len(mesh.vertices)) if trust is None else np.nan_to_num(trust)
+    carried = transfer_points(one.points, one.mesh, mesh, ways.place, local, known=ways.target, common=ways.source)
+    return known, replace(carried, confidence=carried.confidence * chance)
 
 
 def correct_points(points: NamedPoints, corrections: Corrections, mesh: Mesh) -> NamedPoints:
@@ -305,18 +304,15 @@ def template_errors(templates: Sequence[Template], results: Mapping[Pair, Result
 
     (pairs, l); NaN for none, and for points of curves, which may lie anywhere along them.
     """
-    rows = []
-    for a in templates:
-        for b in templates:
-            pair = Pair(a.specimen, b.specimen)
-            result = results.get(pair)
-            if a is b or result is None or result.status != "done":
-                continue
-            file = map_path(folder, pair.key)
-            carried = _carry_points(load_map(file), a.points, a.mesh, b.mesh, str(file), 1.0)
-            rows.append(np.linalg.norm(carried.points - b.points.points, axis=1))
-            rows[-1][np.setdiff1d(np.arange(len(rows[-1])), fixed_rows(carried.names))] = np.nan
-    return np.array(rows).reshape(-1, len(templates[0].points.names))
+    rows, names = [], templates[0].points.names
+    fixed = fixed_rows(names)
+    for a, b in itertools.permutations(templates, 2):
+        result = results.get(Pair(a.specimen, b.specimen))
+        if result is not None and result.status == "done":
+            carried = _carry(a, b.specimen, b.mesh, folder)[1]
+            rows.append(np.full(len(names), np.nan))
+            rows[-1][fixed] = np.linalg.norm(carried.points - b.points.points, axis=1)[fixed]
+    return np.array(rows).reshape(-1, len(names))
 
 
 def _mean(values: np.ndarray) -> np.ndarray:
