@@ -243,7 +243,8 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
         (lambda: kfmaps.coverage(ORDER, "a.off"), "source: expected a Mesh"),  # pyright: ignore
         (lambda: kfmaps.write_mesh("a.off", (V, F)), "mesh: expected a Mesh"),  # pyright: ignore
         (lambda: kfmaps.save_map("a.npz", ORDER), "map: expected a Match"),  # pyright: ignore
-        (lambda: kfmaps.transfer(V, {"a": 1}), "map: expected"),  # pyright: ignore
+        (lambda: kfmaps.transfer(V, {"a": 1}), "map: expected a Match, the file of a map"),  # pyright: ignore
+        (lambda: kfmaps.transfer(V, [0, 1.5]), "map: expected a whole number for each vertex, got fractions"),
         (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: expected"),  # pyright: ignore
     ],
 )

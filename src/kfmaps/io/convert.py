@@ -177,7 +177,8 @@ def as_map(found: MapLike, source: Mesh | None = None) -> Match:
         named = ShapeFile(n_vertices=len(source.vertices))
         return Match(target_to_source=nearest_vertices(found, source), precise_map=found, source_file=named)
     try:
-        return Match(target_to_source=check_map(np.asarray(found), lost=True))
+        numbers = np.asarray(found, dtype=np.float64)
     except (TypeError, ValueError) as error:
         wanted = "a Match, the file of a map, a PointMap, or a source vertex for each target vertex"
         raise refuse("map", wanted, type(found).__name__, "give what kfmaps.match returned") from error
+    return Match(target_to_source=check_map(numbers, lost=True))

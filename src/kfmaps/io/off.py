@@ -38,24 +38,18 @@ def parse_off(data: bytes, name: str) -> MeshFile:
         what = "the file is cut short or its counts are wrong: export it again"
         raise refuse(name, f"lines for {n} vertices and {f} faces", f"{have} lines", what)
 
-    plain = 3 + 3 * (b"N" in kinds) + 2 * bool(textured)
-    widths = (plain + 4, plain + 3) if b"C" in kinds else (plain,)
+    before, behind = 3 + 3 * (b"N" in kinds), 2 * bool(textured)  # numbers on either side of the colour
+    widths = (before + 4 + behind, before + 3 + behind) if b"C" in kinds else (before + behind,)
     wanted = f"{' or '.join(map(str, widths))} numbers a vertex"
     columns = as_table(rows.part(1, 1 + n), widths, name, wanted)
-    colors = uv = None
-    if b"C" in kinds and n:
-        at = plain - 2 * bool(textured)
-        colors = unit_colors(columns[:, at : at + columns.shape[1] - plain])
+    colors = unit_colors(columns[:, before : columns.shape[1] - behind]) if b"C" in kinds else None
     faces = _faces(rows.part(1 + n, 1 + n + f), name)
-    if textured:
-        uv = columns[:, -2:].copy()
+    uv = columns[:, -2:].copy() if textured else None
     return MeshFile(Mesh(columns[:, :3], faces), colors, uv, faces if textured else None)
 
 
 def _faces(rows: Rows, name: str) -> np.ndarray:
     """The triangles of the face lines, (t, 3)."""
-    if len(rows) == 0:
-        return np.zeros((0, 3), dtype=np.int64)
     sizes = whole_numbers(rows.values[rows.starts], f"{name}: corners of a face")
     check_lines(sizes < 3, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
     short, wanted = sizes >= rows.counts, "as many corners as the line says"
