@@ -25,7 +25,7 @@ from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, load_map, save_map, write_mesh
 from kfmaps.io.mapcontent import ARRAYS, summarize_match
-from kfmaps.io.provenance import map_mesh, with_files
+from kfmaps.io.mapfile import map_mesh, with_files
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.matching.result import SHAPE_FIELDS, Match
 from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile

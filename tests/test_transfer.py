@@ -18,7 +18,7 @@ from kfmaps.io import MeshFile, load_map, read_mesh_file, read_values, save_map,
 from kfmaps.io.bake import projected_uv, transfer_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
-from kfmaps.io.provenance import with_files
+from kfmaps.io.mapfile import with_files
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchRegistration
 

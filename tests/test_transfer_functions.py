@@ -11,7 +11,7 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import save_map, write_mesh
-from kfmaps.io.provenance import with_files
+from kfmaps.io.mapfile import with_files
 from kfmaps.io.transfer import transfer_by_functions
 from kfmaps.matching.result import Match
 

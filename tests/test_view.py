@@ -26,7 +26,7 @@ from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import MeshFile, save_map, write_mesh, write_vertex_numbers
 from kfmaps.io.bake import decode_picture, encode_png
-from kfmaps.io.provenance import mesh_path
+from kfmaps.io.mapfile import mesh_path
 from kfmaps.io.record import Picture
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile

@@ -28,6 +28,7 @@ from kfmaps.io import MeshFile, atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
 from kfmaps.io.atomic import write_text
 from kfmaps.io.convert import LandmarksLike, MapLike, ShapeLike, TruthLike, as_landmarks, as_map, as_mesh, is_file
+from kfmaps.io.mapfile import map_mesh, map_mesh_file
 from kfmaps.io.transfer import transfer as carried
 from kfmaps.matching import match as matching
 from kfmaps.matching.result import Match
@@ -334,7 +335,6 @@ def view(
     Path or None
         The page: one file that needs no network; ``None`` where it is in a cell.
     """
-    from kfmaps.io.provenance import map_mesh_file
     from kfmaps.viz.notebook import in_notebook, show_in_cell
     from kfmaps.viz.result_pages import match_page, open_page
 
@@ -391,8 +391,6 @@ def _map_and_shapes(
     found: MapLike, source: ShapeLike | None, target: ShapeLike | None
 ) -> tuple[Match, tuple[Mesh, Mesh]]:
     """A map and its two shapes: as given, else the match's own, else those that the map's file names."""
-    from kfmaps.io.provenance import map_mesh
-
     beside = Path(found) if is_file(found) else Path()
     found = load_map(beside) if is_file(found) else found
     meshes = []

@@ -30,9 +30,9 @@ from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_vertex_numbers, save_map
 from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.io.mapcontent import mean_confidence
+from kfmaps.io.mapfile import with_files
 from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_landmark_pairs
-from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.result import Match

@@ -16,7 +16,7 @@ from kfmaps._arrays import InvalidInput, NotConverged, refuse
 from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.provenance import with_files
+from kfmaps.io.mapfile import with_files
 from kfmaps.matching.match import match
 from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare

@@ -16,7 +16,7 @@ from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, check_output, load_map
-from kfmaps.io.provenance import map_mesh
+from kfmaps.io.mapfile import map_mesh
 from kfmaps.io.text import check_suffix
 from kfmaps.io.transfer import precise_points
 from kfmaps.matching.result import Match

@@ -13,7 +13,7 @@ from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
 from kfmaps.io import Values, check_map, check_output, load_map, save_map, write_colored, write_textured, write_values
 from kfmaps.io.export import write_morph
-from kfmaps.io.provenance import map_mesh_file
+from kfmaps.io.mapfile import map_mesh_file
 from kfmaps.io.text import check_suffix
 from kfmaps.viz import position_colors
 

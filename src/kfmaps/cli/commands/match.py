@@ -23,10 +23,9 @@ from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_output, read_values, save_map
 from kfmaps.io.mapcontent import summarize_match
-from kfmaps.io.mapfile import check_format
+from kfmaps.io.mapfile import check_format, with_files
 from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.result import Match

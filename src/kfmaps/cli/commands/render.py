@@ -20,7 +20,7 @@ from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh, Tru
 from kfmaps.cli.terminal import report_files
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.io import atomic_output, check_map, check_output, load_map
-from kfmaps.io.provenance import map_mesh
+from kfmaps.io.mapfile import map_mesh
 from kfmaps.viz import Panel, View, curves_figure, grid_figure, picture_format, save_figure, view_from
 
 app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)

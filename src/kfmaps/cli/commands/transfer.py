@@ -14,8 +14,8 @@ from kfmaps.cli.terminal import report_files
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_values, write_values
 from kfmaps.io.landmark_files import landmark_format, mesh_space
+from kfmaps.io.mapfile import map_mesh, mesh_path
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
-from kfmaps.io.provenance import map_mesh, mesh_path
 from kfmaps.io.transfer import Counterparts, find_counterparts, precise_points, transfer_back, transfer_by_functions
 from kfmaps.io.transfer import transfer as transfer_values
 from kfmaps.matching.result import Match

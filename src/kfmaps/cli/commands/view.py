@@ -12,7 +12,7 @@ from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, Targe
 from kfmaps.cli.terminal import report_files, say
 from kfmaps.io import check_output, load_map
 from kfmaps.io.atomic import write_text
-from kfmaps.io.provenance import map_mesh_file, mesh_path
+from kfmaps.io.mapfile import map_mesh_file, mesh_path
 from kfmaps.matching.result import Match
 from kfmaps.viz.page import check_up
 from kfmaps.viz.result_pages import match_page, open_page
