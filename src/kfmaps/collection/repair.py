@@ -140,13 +140,13 @@ class _Repair:
         self.signs, self.sync = _synchronize(count, ends, self.maps)
 
     def run(self) -> RepairResult:
-        tried: set[tuple[int, tuple[CycleStep, ...]]] = set()
+        tried: set[tuple[int, CyclePath]] = set()
         for _ in range(3):  # rounds of compositions: a replaced map may open a path for others
             doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < _DOUBT]
-            asked = [(i, path) for i, path in self._paths_around(doubted) if (i, path.steps) not in tried]
+            asked = [one for one in self._paths_around(doubted) if one not in tried]
             if not asked:
                 break
-            tried |= {(i, path.steps) for i, path in asked}
+            tried |= set(asked)
             for (i, path), made in zip(asked, self.compose(asked), strict=True):
                 self._offer(i, made, path)
             self.signs, self.sync = _synchronize(self.count, self.ends, self.maps)
@@ -162,7 +162,7 @@ class _Repair:
         best = [int(chances[:-1].argmax()) for chances in self.sync.probabilities]
         each = zip(self.sync.probabilities, best, self.given, strict=True)
         chances = [float(p[b]) if b < given else 0.0 for p, b, given in each]
-        found: dict[tuple[int, tuple[CycleStep, ...]], CyclePath] = {}
+        found: list[tuple[int, CyclePath]] = []
         min_path_probability = 0.3  # least probability that all maps of a path are right
         for i in edges:
             likely = best_path(self.count, self.ends, chances, *self.ends[i], without=i)
@@ -171,9 +171,8 @@ class _Repair:
                 walk = zip(likely.edges, likely.shapes, strict=False)
                 steps = tuple(CycleStep(e, best[e], self.ends[e][0] == at) for e, at in walk)
                 paths.insert(0, CyclePath(steps, likely.shapes[1:-1]))
-            for path in paths:
-                found.setdefault((i, path.steps), path)
-        return [(i, path) for (i, _), path in found.items()]
+            found += [(i, path) for path in dict.fromkeys(paths)]
+        return found
 
     def _offer(self, edge: int, made: ScoredMap, path: CyclePath) -> None:
         """Add a composition to the candidates; where it is nearly one of them, that one may take its score."""
