@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from graphlib import TopologicalSorter
 
 import numpy as np
 
@@ -94,9 +95,10 @@ def transfer_skin(skin: Skin, source: Mesh, target: Mesh, places: PointMap, mirr
     joints = len(skin.names)
     above = np.where(skin.parents < 0, np.arange(joints), skin.parents)
     own = areas[:, None] * weights * (_OWN + np.where(above == np.arange(joints), 0, weights[:, above]))
-    order = _from_roots(skin.parents)
+    tree = TopologicalSorter({j: [parent] for j, parent in enumerate(skin.parents.tolist())})
+    order = [j for j in tree.static_order() if j >= 0]  # each joint after the one above it
     enough = 1e-6 * areas.sum()
-    for j in order[::-1]:  # a joint without weight has that of the ones below it
+    for j in reversed(order):  # a joint without weight has that of the ones below it
         if own[:, j].sum() < enough:
             own[:, j] = own[:, skin.parents == j].sum(axis=1)
     matrices = np.array(skin.matrices)
@@ -112,16 +114,6 @@ def transfer_skin(skin: Skin, source: Mesh, target: Mesh, places: PointMap, mirr
             matrices[j, :3, 0] *= -1  # a joint's frame is right-handed
         matrices[j, :3, 3] = linear @ skin.matrices[j, :3, 3] + moves[j][:3, 3]
     return Skin(skin.names, skin.parents, matrices, weights)
-
-
-def _from_roots(parents: np.ndarray) -> list[int]:
-    """Joints in an order in which each comes after the one above it."""
-    order: list[int] = []
-    level = np.flatnonzero(parents < 0)
-    while len(level):
-        order += level.tolist()
-        level = np.flatnonzero(np.isin(parents, level))
-    return order
 
 
 def _weighted_similarity(points: np.ndarray, onto: np.ndarray, weights: np.ndarray, mirrored: bool) -> np.ndarray:

@@ -69,7 +69,9 @@ def format_glb(shape: MeshFile) -> bytes:
             material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
     attributes["POSITION"] = chunks.places(mesh.vertices[rows])
     if len(mesh.faces):
-        attributes["NORMAL"] = chunks.array(_directions(vertex_normals(mesh))[rows].astype("<f4"), _FLOAT, "VEC3")
+        normals = vertex_normals(mesh)
+        normals[np.linalg.norm(normals, axis=1) == 0] = [0, 0, 1]  # the format wants length 1 throughout
+        attributes["NORMAL"] = chunks.array(normals[rows].astype("<f4"), _FLOAT, "VEC3")
     if colors is not None:
         linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
         four = np.hstack([bytes_of(linear), np.full((len(colors), 1), 255, dtype=np.uint8)])
@@ -132,9 +134,3 @@ def _placed(matrix: np.ndarray) -> JsonObject:
         return {"matrix": matrix.T.ravel().tolist()}
     turned = Rotation.from_matrix(turn).as_quat().tolist()
     return {"translation": matrix[:3, 3].tolist(), "rotation": turned, "scale": scale.tolist()}
-
-
-def _directions(normals: np.ndarray) -> np.ndarray:
-    """Normals of length 1 throughout, as the format wants: upwards where there is none."""
-    bare = np.linalg.norm(normals, axis=1) == 0
-    return np.where(bare[:, None], [0.0, 0.0, 1.0], normals)
