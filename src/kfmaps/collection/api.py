@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -139,20 +139,15 @@ class Collection:
         return self.names.index(name)
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class _PairMaps:
-    """A pair of shapes, by number, with its map and the map's alternatives, and their scores where all is matched."""
+    """A pair of shapes, by number, with its map and the map's alternatives, and their scores; none of maps of parts."""
 
     ends: tuple[int, int]
     shapes: tuple[Shape, Shape]
     samples: tuple[ShapeSamples, ShapeSamples]
-    match: Match | None  # where one was made here
-    candidates: list[StoredMap]
-    scores: list[ScoredMap] = field(default_factory=list)
-
-    @property
-    def is_part(self) -> bool:
-        return bool((self.candidates[0][0] < 0).any())
+    match: Match
+    scores: list[ScoredMap]
 
 
 def match_collection(
@@ -203,19 +198,17 @@ def match_collection(
     samples = [scoring_samples(shape, rng) for shape in ready]
     known = {} if maps is None else _checked_maps(maps, names, ready)
     ends = tuple(known) if maps is not None else signature_graph(graph, np.stack([signature(s.basis) for s in ready]))
-    pairs: list[_PairMaps] = []
+    pairs = []
     for i, (a, b) in enumerate(ends):
         both, probes = (ready[a], ready[b]), (samples[a], samples[b])
-        match_ab = None if (a, b) in known else match(*both, config, rng=rng, probes=probes)
-        file = known[a, b] if match_ab is None else as_map(match_ab)
-        told = match_ab or (maps or {}).get((names[a], names[b]))
-        turned = told.orientation == "reversing" if isinstance(told, Match) else None
-        pairs.append(_PairMaps((a, b), both, probes, match_ab, stored_candidates(file, turned)))
+        match_ab = known[a, b] if (a, b) in known else match(*both, config, rng=rng, probes=probes)
         progress("pairs", i + 1, len(ends))
-        if not pairs[-1].is_part:
-            with one_blas_thread():
-                pairs[-1].scores = score_stored(file, both, probes, turned)
-    return _collected(names, ready, pairs, config, rng)
+        is_part = (match_ab.target_to_source < 0).any()
+        with one_blas_thread():
+            pairs.append(
+                _PairMaps((a, b), both, probes, match_ab, [] if is_part else score_stored(match_ab, both, probes))
+            )
+    return _collected(names, ready, pairs, config, rng, maps is not None)
 
 
 def _prepared(
@@ -234,15 +227,19 @@ def _prepared(
 
 
 def _collected(
-    names: tuple[str, ...], shapes: list[Shape], pairs: list[_PairMaps], config: Config, seed: int
+    names: tuple[str, ...], shapes: list[Shape], pairs: list[_PairMaps], config: Config, seed: int, given: bool
 ) -> Collection:
-    """Make the maps of the pairs agree; those of parts take no part in it."""
-    whole = [pair for pair in pairs if not pair.is_part]
-    parts = [pair for pair in pairs if pair.is_part]
+    """Make the maps of the pairs agree; those of parts take no part in it. ``given``: whether none was matched here."""
+    whole = [pair for pair in pairs if pair.scores]
+    parts = [pair for pair in pairs if not pair.scores]
 
     def compose(path: CyclePath) -> StoredMap:
-        steps = ((whole[step.edge], step) for step in path.steps)
-        return compose_path([(p.candidates[s.candidate], None if s.forward else p.shapes[0].basis) for p, s in steps])
+        steps = []
+        for step in path.steps:
+            pair = whole[step.edge]
+            one = stored_candidates(pair.match)[step.candidate]
+            steps.append((one, None if step.forward else pair.shapes[0].basis))
+        return compose_path(steps)
 
     def score(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
         with one_blas_thread():
@@ -254,18 +251,16 @@ def _collected(
     for change in repaired.replacements:
         if change.kind != "none":
             pair, composition = whole[change.edge], None if change.path is None else compose(change.path)
-            made[change.edge] = refine_replacement(
-                change, pair.candidates, composition, pair.shapes, config, change.label(names), seed
-            )
-    matches = [made.get(i, pair.match) for i, pair in enumerate(whole)]
-    points = [made[i].target_to_source if i in made else pair.candidates[0][0] for i, pair in enumerate(whole)]
+            candidates, label = stored_candidates(pair.match), change.label(names)
+            made[change.edge] = refine_replacement(change, candidates, composition, pair.shapes, config, label, seed)
+    matches = [*(made.get(i, pair.match) for i, pair in enumerate(whole)), *(pair.match for pair in parts)]
     named = tuple((names[pair.ends[0]], names[pair.ends[1]]) for pair in (*whole, *parts))
     return Collection(
         names,
         tuple(shapes),
         named,
-        (*points, *(pair.candidates[0][0] for pair in parts)),
-        (*matches, *(pair.match for pair in parts)),
+        tuple(one.target_to_source for one in matches),
+        tuple(None if given and i not in made else one for i, one in enumerate(matches)),
         (*repaired.probabilities.tolist(), *[float("nan")] * len(parts)),
         {named[change.edge]: change.label(names) or "doubted" for change in repaired.replacements},
         dict(zip(names, repaired.chirality.tolist(), strict=True)),

@@ -39,21 +39,20 @@ def common_bases(
     return component_limit_shapes(repaired.sync, edges, np.stack([b.eigenvalues[:k] for b in bases]), n_latent)
 
 
-def stored_candidates(file: Match, reversed: bool | None = None) -> list[StoredMap]:
-    """Return the map in use and its alternatives; ``reversed`` where the file does not tell."""
-    turned = file.orientation == "reversing" if reversed is None else reversed
-    return [(points, turned) for points in (file.target_to_source, *file.alternatives)]
+def stored_candidates(file: Match) -> list[StoredMap]:
+    """Return the map in use and its alternatives."""
+    return [(points, file.orientation == "reversing") for points in (file.target_to_source, *file.alternatives)]
 
 
 def score_stored(
-    file: Match, shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples], reversed: bool | None = None
+    file: Match, shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
 ) -> list[ScoredMap]:
     """Score the candidates of a file. The map in use has the score of its raw map, where that is better.
 
     Alternatives are not finished, and finishing does not aim at the score.
     """
     check_map(file, len(shapes[0].mesh.vertices), len(shapes[1].mesh.vertices))
-    maps = stored_candidates(file, reversed)
+    maps = stored_candidates(file)
     raw = file.fit.raw_functional_map
     if raw is None:
         return score_pair_maps(maps, shapes, samples)
