@@ -17,15 +17,7 @@ from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.mesh import Mesh
 
-__all__ = [
-    "ExamplePair",
-    "non_isometric",
-    "partial",
-    "sphere",
-    "symmetric_creature",
-    "torus",
-    "two_poses",
-]
+__all__ = ["ExamplePair", "non_isometric", "partial", "sphere", "symmetric_creature", "torus", "two_poses"]
 
 _MAX_VERTICES = 300_000  # number of vertices of the largest mesh
 

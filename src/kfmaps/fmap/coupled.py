@@ -35,13 +35,7 @@ class CoupledBases:
         return _rotated(source, self.U_s), _rotated(target, self.U_t)
 
 
-def couple_bases(
-    values_s: Array,
-    values_t: Array,
-    cross: Array,
-    weight: float,
-    start: Array | None = None,
-) -> CoupledBases:
+def couple_bases(values_s: Array, values_t: Array, cross: Array, weight: float) -> CoupledBases:
     """Diagonalise two Laplacians jointly and approximately, coupled by corresponding functions.
 
     Minimises ``½ Σ off(U_xᵀ Λ_x U_x) / ‖Λ_x‖² − weight tr(U_tᵀ cross U_s) / Σσ(cross)`` over rotations, where ``off``
@@ -56,11 +50,9 @@ def couple_bases(
         Eigenvalues.
     cross : (k_t, k_s)
         ``Σ q pᵀ`` over the coefficients of corresponding functions, or a functional map, of which it then is the
-        correspondence of all functions.
+        correspondence of all functions. Where it is square ``U_t`` starts at its polar factor, else at the identity.
     weight : float
         Of the coupling.
-    start : (k_t, k_s), optional
-        A functional map; ``U_t`` starts at its polar factor (identity: ``U_s``), so ``k_t = k_s`` with it.
     """
     xp = namespace(cross)
     k_t, k_s = cross.shape
@@ -69,10 +61,7 @@ def couple_bases(
     size = float(xp.sum(xp.linalg.svd(cross, full_matrices=False)[1])) or 1.0
     pull = cross * (weight / size)
     U_s = xp.eye(k_s, dtype=cross.dtype, device=cross.device)
-    U_t = xp.eye(k_t, dtype=cross.dtype, device=cross.device)
-    if start is not None:
-        check(start, "start", shape=(k_t, k_t), remedy="give a square map, of coupled bases of equal sizes")
-        U_t = nearest_orthogonal(start)
+    U_t = nearest_orthogonal(cross) if k_t == k_s else xp.eye(k_t, dtype=cross.dtype, device=cross.device)
     sides = [values / (float(xp.sum(values * values)) ** 0.5 or 1.0) for values in (values_s, values_t)]
 
     def objective() -> float:

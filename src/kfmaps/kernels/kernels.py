@@ -247,10 +247,6 @@ def inner_kernels(kernel: KernelLike) -> dict[str, KernelLike]:
 
 def _known(kernel: Gaussian | Laplacian) -> float:
     if kernel.gamma is None:
-        raise refuse(
-            f"{type(kernel).__name__} gamma",
-            "a number",
-            "None (automatic)",
-            "call resolve_kernel(kernel, samples) first",
-        )
+        name = f"{type(kernel).__name__} gamma"
+        raise refuse(name, "a number", "None (automatic)", "call resolve_kernel(kernel, samples) first")
     return kernel.gamma

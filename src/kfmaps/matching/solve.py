@@ -72,7 +72,7 @@ def minimize_problem(
     rotation = None
     if asked.coupled_bases and start is not None:  # the bases that the least-squares map speaks for
         one, other = (basis.eigenvalues for basis in task.bases)
-        rotation = couple_bases(one, other, start, asked.coupling_weight, start=start)
+        rotation = couple_bases(one, other, start, asked.coupling_weight)
     forth = objective(task, config, start, rotation)
     if not asked.bidirectional:
         solution = minimize(forth, how, start, told)
