@@ -3,10 +3,9 @@
 from kfmaps.viz.camera import View, automatic_view, following_view, true_views, view_from
 from kfmaps.viz.colors import ERROR_MAP, error_colors, error_limit, position_colors
 from kfmaps.viz.curves import Curve, curves_figure, mean_curve
-from kfmaps.viz.errors import painted_errors
 from kfmaps.viz.figures import picture_format, save_figure
 from kfmaps.viz.grids import Panel, grid_figure
-from kfmaps.viz.matches import match_figure
+from kfmaps.viz.matches import match_figure, painted_errors
 from kfmaps.viz.surfaces import draw_surface
 
 __all__ = [

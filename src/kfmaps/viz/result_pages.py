@@ -20,7 +20,7 @@ from kfmaps.io import MeshFile, check_map
 from kfmaps.io.bake import decode_picture
 from kfmaps.io.export import textured
 from kfmaps.matching.result import Match
-from kfmaps.viz.errors import vertex_errors
+from kfmaps.viz.matches import vertex_errors
 from kfmaps.viz.page import ResultPage
 
 _SIGNATURES = 12  # wave kernel signatures shown, and ...
