@@ -948,7 +948,8 @@ MUTANTS = tuple(
         ("seen.opening <= SCORE.part.max_hole_opening", "seen.opening > 0", "test_parts -k may_be_a_whole"),
         ("(second.confidence or 0.0) > (first.confidence or 0.0)", "True", "test_parts -k may_be_a_whole"),
         # whether the open shape has more than the closed one
-        ("part.scale**2 < SCORE.part.full_area", "part.scale < SCORE.part.full_area", "test_parts -k may_have_more"),
+        ("least = math.sqrt(SCORE.part.full_area)", "least = SCORE.part.full_area", "test_parts -k may_have_more"),
+        ("likely = likely if worth else likely[:1]", "likely = likely[:1]", "test_small_parts"),
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (

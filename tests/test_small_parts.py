@@ -137,3 +137,36 @@ def test_only_below_a_quarter_of_the_area_a_part_is_small(
     with pytest.raises(Seen) as told:
         place_part.place_part(triangle, triangle, Config(), ratio=ratio, both_partial=both)
     assert told.value.args == (ratio if small else None,)
+
+
+@pytest.mark.parametrize(
+    ("scales", "tried", "ends"), [((0.3, 0.4), [0.3], "last"), ((0.3, 0.6), [0.3, 0.6], "compare")]
+)
+def test_where_all_placements_are_too_small_the_first_alone_is_registered(
+    monkeypatch: pytest.MonkeyPatch, scales: tuple[float, ...], tried: list[float], ends: str
+) -> None:
+    class End(Exception):
+        """Where placing a part was left."""
+
+    def left(name: str) -> Any:
+        def leave(*_: Any) -> Any:
+            raise End(name)
+
+        return leave
+
+    def register(one: Any, _: PartPair) -> Any:
+        seen.append(one.scale)
+        return SimpleNamespace(registration=None)
+
+    seen: list[float] = []
+    likely = [SimpleNamespace(scale=scale) for scale in scales]
+    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: likely)
+    monkeypatch.setattr(
+        place_part, "make_candidate", lambda one, _: seen.append(one.scale) or SimpleNamespace(registration=None)
+    )
+    monkeypatch.setattr(place_part, "compare_alternatives", left("compare"))
+    monkeypatch.setattr(place_part, "_register_fully", left("last"))
+    triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
+    with pytest.raises(End, match=ends):
+        place_part.place_part(triangle, triangle, Config(), least_scale=0.5)
+    assert seen == tried

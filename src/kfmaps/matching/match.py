@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Literal
 
@@ -83,8 +84,9 @@ def _compare_opposite(
 
     One of the two has mostly shrunk as far as it may.
     """
-    part = _place_part(task, which, landmarks, "the other as a part")
-    if part.scale**2 < SCORE.part.full_area:
+    least = math.sqrt(SCORE.part.full_area)
+    part = _place_part(task, which, landmarks, "the other as a part", least)
+    if part.scale < least:
         return best
     scale = best.partial.scale
     has_shrunk = landmarks is None and scale is not None and scale < SCORE.part.shrunk_scale
@@ -138,9 +140,13 @@ def _match_part(task: MatchTask, seen: PartDetection, landmarks: np.ndarray | No
 
 
 def _place_part(
-    task: MatchTask, which: Literal["source", "target", "both"], landmarks: np.ndarray | None, stage: str
+    task: MatchTask,
+    which: Literal["source", "target", "both"],
+    landmarks: np.ndarray | None,
+    stage: str,
+    least_scale: float = 0.0,
 ) -> PartialMatch:
-    """Return the placement of a part, timed as a ``stage``."""
+    """Return the placement of a part, timed as a ``stage``; a rough one where none is of ``least_scale``."""
     with task.clock(stage):
         return match_partial(
             *task.shapes("preserving"),
@@ -149,6 +155,7 @@ def _place_part(
             landmarks=landmarks,
             rng=task.seed,
             progress=task.clock.report,
+            least_scale=least_scale,
         )
 
 

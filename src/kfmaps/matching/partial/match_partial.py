@@ -56,11 +56,13 @@ def match_partial(
     landmarks: np.ndarray | None = None,
     rng: int = 0,
     progress: Progress | None = None,
+    least_scale: float = 0.0,
 ) -> PartialMatch:
     """Match two prepared shapes of which one is a part.
 
     ``which``: the part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
-    target where their units cannot be compared. ``landmarks (l, 2)``: pairs "source vertex, target vertex".
+    target where their units cannot be compared. ``landmarks (l, 2)``: pairs "source vertex, target vertex";
+    ``least_scale``: see :func:`kfmaps.matching.partial.place_part.place_part`.
     """
     for shape in (source, target):
         if len(shape.mesh.faces) == 0:
@@ -78,6 +80,7 @@ def match_partial(
         both_partial=which == "both",
         rng=rng,
         progress=None if progress is None else lambda done: progress("parts", done),
+        least_scale=least_scale,
     )
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
     found, rejected = _place_by_landmarks(place_with, pairs[:, ::-1] if forward else pairs, whole.mesh, numbers)

@@ -67,13 +67,15 @@ def place_part(
     both_partial: bool = False,
     rng: int = 0,
     progress: Callable[[float], None] | None = None,
+    least_scale: float = 0.0,
 ) -> PlacedPart:
     """Place a part on a whole.
 
     ``part`` and ``whole``: at unit area; ``ratio``: √area of the part over that of the whole as they were given: one of
     the scales that are tried, and the only one where units are the same (:func:`_same_units`); ``landmarks (l, 2)``:
     vertices of the part and of the whole; ``both_partial``: whether the whole, too, may lack something; ``progress``:
-    told about how much is done, from 0 to 1.
+    told about how much is done, from 0 to 1; ``least_scale``: where no likely placement is as large, only the first of
+    them is registered.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
@@ -94,13 +96,16 @@ def place_part(
     if not fixed and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
         scales.append(ratio)
     likely = _likely_placements(pair, scales, settings.candidates)
+    worth = max((one.scale for one in likely), default=least_scale) >= least_scale
+    likely = likely if worth else likely[:1]
     report(0.5)
     found: list[PartCandidate] = []
     for i, one in enumerate(likely):
         found.append(make_candidate(one, pair))
         report(0.5 + 0.15 * (i + 1) / len(likely))
-    found += [] if small is None else small_part_candidates(pair, small)
-    found = compare_alternatives(found, pair)
+    if worth:
+        found += [] if small is None else small_part_candidates(pair, small)
+        found = compare_alternatives(found, pair)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
     if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
