@@ -94,6 +94,19 @@ def colours_of(shape: MeshFile) -> tuple[np.ndarray, np.ndarray]:
     return _sample_picture(pixels, middle), shape.mesh.vertices[shape.mesh.faces].mean(axis=1)
 
 
+@pytest.mark.parametrize(
+    ("mode", "kind"), [("RGBA", "png"), ("P", "png"), ("L", "png"), ("1", "png"), ("CMYK", "jpeg")]
+)
+def test_pictures_of_every_kind_are_read(mode: str, kind: str) -> None:
+    """Of two halves, black and white."""
+    file = io.BytesIO()
+    halves = np.repeat(np.array([0, 255], dtype=np.uint8), 16)[None, :, None] * np.ones((32, 1, 3), dtype=np.uint8)
+    Image.fromarray(halves).convert(mode).save(file, kind)
+    pixels = decode_picture(Picture(file.getvalue(), f"image/{kind}"))
+    assert pixels.shape == (32, 32, 3)
+    np.testing.assert_allclose(pixels, halves / 255, atol=0.02)
+
+
 def test_the_identity_gives_back_the_picture() -> None:
     """Every texel inside a face, when source and target are one and the same."""
     shape = own_atlas(fibonacci_sphere(60))

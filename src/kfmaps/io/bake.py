@@ -29,23 +29,20 @@ _MARGIN = 3  # texels around each face that is packed into the picture, which ge
 
 def decode_picture(picture: Picture) -> np.ndarray:
     """Decode a PNG or JPEG file into (h, w, 3) float64 from 0 to 1; row 0 is the top."""
-    from matplotlib.image import imread
+    from PIL import Image
 
     try:
-        found = imread(io.BytesIO(picture.data), format=picture.suffix[1:])
+        return np.asarray(Image.open(io.BytesIO(picture.data)).convert("RGB")) / 255.0
     except (OSError, ValueError, SyntaxError) as error:
         raise refuse("the texture", "a PNG or JPEG file", str(error)[:80], "export it again") from error
-    values = found / 255.0 if found.dtype.kind == "u" else found.astype(np.float64)
-    values = values.reshape(*values.shape[:2], -1)
-    return values[:, :, :3] if values.shape[2] >= 3 else np.repeat(values[:, :, :1], 3, axis=2)
 
 
 def encode_png(pixels: np.ndarray) -> Picture:
     """Encode ``(h, w, 3)``, uint8 or from 0 to 1, as a PNG file."""
-    from matplotlib.image import imsave
+    from PIL import Image
 
     buffer = io.BytesIO()
-    imsave(buffer, pixels, format="png")
+    Image.fromarray(pixels if pixels.dtype == np.uint8 else bytes_of(pixels)).save(buffer, "png")
     return Picture(buffer.getvalue(), "image/png")
 
 
@@ -244,16 +241,12 @@ def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
 
 def _resized(pixels: np.ndarray, size: int) -> np.ndarray:
     """A picture whose longer side has ``size`` texels."""
+    from PIL import Image
+
     height, width = pixels.shape[:2]
     h, w = (max(1, round(side * size / max(height, width))) for side in (height, width))
-    if (h, w) == (height, width):
-        return pixels
-    if size < max(height, width):
-        from scipy.ndimage import uniform_filter1d
-
-        pixels = uniform_filter1d(uniform_filter1d(pixels, height // h, axis=0), width // w, axis=1)
-    across, down = np.meshgrid((np.arange(w) + 0.5) / w, 1 - (np.arange(h) + 0.5) / h)
-    return _sample_picture(pixels, np.stack([across.ravel(), down.ravel()], axis=1)).reshape(h, w, 3)
+    image = Image.fromarray(bytes_of(pixels)).resize((w, h), Image.Resampling.BILINEAR)
+    return np.asarray(image) / 255.0
 
 
 def transfer_texture(
