@@ -9,12 +9,13 @@ import pytest
 from scipy.spatial import KDTree
 
 from kfmaps import datasets
-from kfmaps.config import Partial
+from kfmaps.config import Config, Partial
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.geodesics import farthest_geodesic
-from kfmaps.geometry.mesh import surface_area, unit_area, vertex_areas
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
 from kfmaps.matching.partial import candidates as contest
+from kfmaps.matching.partial import place_part
 from kfmaps.matching.partial.candidates import (
     _ROUNDS,
     _differ,
@@ -28,13 +29,14 @@ from kfmaps.matching.partial.registration import register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, Placement, shot_similarity
-from kfmaps.matching.score import SCORE
+from kfmaps.matching.score import SCORE, PartEvidence
 from kfmaps.shape import prepare
 from test_search import SMALL
 
 GUARDS = ("kfmaps.matching.partial",)
 
 EMPTY: Any = None
+COST = SCORE.part.w_landmark
 
 
 @pytest.fixture(scope="module")
@@ -163,7 +165,24 @@ def test_a_candidate_pays_for_landmarks_that_it_contradicts(half, monkeypatch):
     assert found.score == pytest.approx(free.score - SCORE.part.w_landmark)
 
 
-COST = SCORE.part.w_landmark
+def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(monkeypatch):
+    """So the verdict is not that of a bad placement where landmarks are wrong."""
+    found = [
+        SimpleNamespace(score=s, evidence=PartEvidence(0.8, -4.0, missed_landmarks=n)) for s, n in ((5, 2), (4, 0))
+    ]
+    for one in found:
+        one.registration = None
+    results = {
+        "_likely_placements": [],
+        "compare_alternatives": found,
+        "_register_fully": None,
+        "find_overlap": None,
+        "margin": 1.0,
+    }
+    for name, result in results.items():
+        monkeypatch.setattr(place_part, name, lambda *_, _result=result: _result)
+    triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
+    assert place_part.place_part(triangle, triangle, Config()).scores == (5 + 2 * COST, 4 + 2 * COST)
 
 
 @pytest.mark.parametrize(

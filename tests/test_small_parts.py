@@ -92,7 +92,7 @@ def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.Monkey
         assert candidates.make_candidate(one, replace(pair, small_scale=None)).evidence.scale_change == 0.0
 
 
-def test_all_further_placements_are_registered_and_the_best_that_differ_kept(
+def test_all_placements_at_a_known_scale_are_registered_and_the_best_that_differ_kept(
     monkeypatch: pytest.MonkeyPatch, pair: PartPair
 ) -> None:
     """Each of two trials has three placements by beams and one by relaxation; two lie at one place."""
@@ -108,35 +108,38 @@ def test_all_further_placements_are_registered_and_the_best_that_differ_kept(
     monkeypatch.setattr(candidates, "place_all", lambda _pair, one: one)
     monkeypatch.setattr(candidates, "make_candidate", registered)
     monkeypatch.setattr(candidates, "_place_again", lambda one, _pair: SimpleNamespace(**{**vars(one), "times": 1}))
-    found: Any = candidates.small_part_candidates(pair, SCALE)
+    found: Any = candidates.candidates_at_scale(pair, SCALE)
     assert [(one.score, one.times) for one in found] == [(9.0, 1), (8.0, 1), (7.0, 1), (6.0, 1)]
 
 
 @pytest.mark.parametrize(
-    ("ratio", "both", "small"),
+    ("ratio", "both", "known"),
     [(0.4, False, True), (0.49, False, True), (0.26, False, True), (0.51, False, False), (0.24, False, False),
-     (None, False, False), (0.4, True, False)],
+     (None, False, False), (0.4, True, False), (0.6, True, True), (1.9, True, True), (2.1, True, False)],
 )  # fmt: skip
-def test_only_below_a_quarter_of_the_area_a_part_is_small(
-    monkeypatch: pytest.MonkeyPatch, ratio: float | None, both: bool, small: bool
+def test_all_placements_of_small_parts_and_of_two_parts_in_one_unit_are_registered(
+    monkeypatch: pytest.MonkeyPatch, ratio: float | None, both: bool, known: bool
 ) -> None:
-    class Seen(Exception):
-        """The scale of a small part, where further candidates are sought for it."""
+    """A part is small below a quarter of the area; two parts of like size are taken to be in one unit."""
+    seen: list[Any] = []
 
-    def further(pair: PartPair, scale: float) -> Any:
-        assert pair.small_scale == scale
-        raise Seen(scale)
+    def candidates_at_scale(pair: PartPair, scale: float) -> Any:
+        assert pair.small_scale == (None if both else scale)
+        return [scale]
 
-    def compared(*_: Any) -> Any:
-        raise Seen(None)
+    def compared(found: Any, _pair: PartPair) -> Any:
+        seen.append(found)
+        raise StopIteration
 
-    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [])
-    monkeypatch.setattr(place_part, "small_part_candidates", further)
+    likely = SimpleNamespace(scale=1.0)
+    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
+    monkeypatch.setattr(place_part, "make_candidate", lambda one, _pair: one)
+    monkeypatch.setattr(place_part, "candidates_at_scale", candidates_at_scale)
     monkeypatch.setattr(place_part, "compare_alternatives", compared)
     triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
-    with pytest.raises(Seen) as told:
+    with pytest.raises(StopIteration):
         place_part.place_part(triangle, triangle, Config(), ratio=ratio, both_partial=both)
-    assert told.value.args == (ratio if small else None,)
+    assert seen == [[likely] + [ratio] * known]
 
 
 @pytest.mark.parametrize(
@@ -153,10 +156,6 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
             raise End(name)
 
         return leave
-
-    def register(one: Any, _: PartPair) -> Any:
-        seen.append(one.scale)
-        return SimpleNamespace(registration=None)
 
     seen: list[float] = []
     likely = [SimpleNamespace(scale=scale) for scale in scales]

@@ -34,7 +34,7 @@ _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
 _LEAST_TRUST, _LEAST_TRUST_OF_TWO = 0.01, 1e-4
 """Trust that samples without any keep in a registration; of two parts many have no place on the other."""
-_MOST_FURTHER = 4  # further candidates for a small part
+_MOST_AT_SCALE = 4  # candidates at a known scale
 _ROUNDS = (2, 5)  # how often candidates are refined, at least and at most
 
 
@@ -122,11 +122,11 @@ def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) ->
     return [one for some in parallel(place, scales, pair.threads) for one in some]
 
 
-def small_part_candidates(pair: PartPair, scale: float) -> list[PartCandidate]:
-    """Return further candidates for a small part at the ``scale`` of its file: the best few that differ.
+def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
+    """Return candidates at the ``scale`` of the files: the best few that differ.
 
-    Samples alone do not tell where a small part belongs, so all placements of beam searches and of relaxation are
-    registered, which takes 0.05 s each, before any is dropped.
+    Samples alone do not tell where a small part belongs, or which of two parts lies where on the other. So all
+    placements of beam searches and of relaxation are registered, which takes 0.05 s each, before any is dropped.
     """
     found = []
     for params in TRIALS[:2]:
@@ -135,7 +135,7 @@ def small_part_candidates(pair: PartPair, scale: float) -> list[PartCandidate]:
         placed = [place_all(pair, Placement(scale, params, one, similarity)) for one in begun]
         found += parallel(lambda one: make_candidate(one, pair), placed, pair.threads)
     order = sorted(found, key=lambda one: -one.score)
-    return [_place_again(one, pair) for one in select_distinct(order, _differ, _MOST_FURTHER)]
+    return [_place_again(one, pair) for one in select_distinct(order, _differ, _MOST_AT_SCALE)]
 
 
 def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:

@@ -14,11 +14,10 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.candidates import (
-    PartCandidate,
+    candidates_at_scale,
     compare_alternatives,
     make_candidate,
     margin,
-    small_part_candidates,
 )
 from kfmaps.matching.partial.registration import (
     Overlap,
@@ -99,12 +98,11 @@ def place_part(
     worth = max((one.scale for one in likely), default=least_scale) >= least_scale
     likely = likely if worth else likely[:1]
     report(0.5)
-    found: list[PartCandidate] = []
-    for i, one in enumerate(likely):
-        found.append(make_candidate(one, pair))
-        report(0.5 + 0.15 * (i + 1) / len(likely))
+    found = [make_candidate(one, pair) for one in likely]
     if worth:
-        found += [] if small is None else small_part_candidates(pair, small)
+        known = scales[0] if fixed and both_partial else small
+        found += [] if known is None else candidates_at_scale(pair, known)
+        report(0.65)
         found = compare_alternatives(found, pair)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
