@@ -70,7 +70,8 @@ class AgreementSection:
 
     changed: Mapping[str, str] = field(default_factory=dict)  # pictures of replaced maps, before and after, by caption
     doubted: Sequence[str] = ()  # pairs that others contradict and for which nothing better is known, a line each
-    specimens: Mapping[str, Any] = field(default_factory=dict)  # charts of the shapes, and a table
+    specimens: Sequence[Mapping[str, str]] = ()  # charts and pictures of the shapes
+    shapes: Mapping[str, Sequence[Any]] | None = None  # titles and rows of their table
 
 
 def write_page(
@@ -89,7 +90,7 @@ def write_page(
     if consistent is not None:
         replaced = [r for r in consistent.results if r.changed and r.pair in consistent.before]
         changed = _pictures(tasks, replaced, worst, _error_limit(consistent.results), consistent.before)
-        agreement = AgreementSection(changed, consistent.doubted, _specimens(plan, consistent.shapes))
+        agreement = AgreementSection(changed, consistent.doubted, **_specimens(plan, consistent.shapes))
     page = summary_page(
         name,
         results,
@@ -117,7 +118,6 @@ def summary_page(
     ``name``: title, any text; ``settings``: as JSON holds them; ``pictures``: addresses by caption, of the worst
     pairs; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary.
     """
-    agreement = agreement or AgreementSection()
     numbers, ordered = summarize(results), worst_first(results)
     folder = files("kfmaps.batch").joinpath("templates")
     style, script = (folder.joinpath(f"summary.{kind}").read_text(encoding="utf-8") for kind in ("css", "js"))
@@ -145,10 +145,7 @@ def summary_page(
         largest=max((r.error_mean or 0.0 for r in ordered), default=0.0),
         pages=pages or {},
         pictures=pictures,
-        changed_pictures=agreement.changed,
-        doubted=agreement.doubted,
-        specimens=agreement.specimens.get("sections", ()),
-        shapes=agreement.specimens.get("shapes"),
+        agreement=agreement or AgreementSection(),
         settings=json.dumps(settings, indent=2),
     )
 
@@ -190,7 +187,7 @@ def _specimens(plan: Plan, known: ShapeStatistics) -> dict[str, Any]:
         varied = _variation(meshes[middle], part)
         sections.append({"chart": _picture(chart, "svg+xml"), "which": which, "variation": varied, "middle": middle})
     titles = [t for t in rows[0] if any(row[t] for row in rows) and (t != "part" or len({r[t] for r in rows}) > 1)]
-    return {"sections": sections, "shapes": {"titles": titles, "rows": rows}}
+    return {"specimens": sections, "shapes": {"titles": titles, "rows": rows}}
 
 
 def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> Figure:

@@ -8,7 +8,7 @@ and another one probable; where no candidate is, that is said.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -271,7 +271,7 @@ def _synchronize(
 
 
 def chirality(
-    count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: Sequence[float]
+    count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: Iterable[float]
 ) -> np.ndarray:
     """Return 1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
 
