@@ -23,8 +23,6 @@ from kfmaps.io.text import complete_or_refuse, read_table
 
 CORRECTIONS = "corrections.csv"
 """What somebody has corrected by hand: the one file of a study that :func:`write_study` leaves alone."""
-EXTREME = 2.0
-"""Standard deviations of a principal component at which its extremes are drawn."""
 
 
 def write_study(output: Path, study: Sequence[SpecimenLandmarks], suffix: str) -> list[Path]:
@@ -39,12 +37,7 @@ def write_study(output: Path, study: Sequence[SpecimenLandmarks], suffix: str) -
         old.unlink()  # of a specimen that is left out now
     for one in fitting:
         write_landmark_sets(own / f"{one.specimen}{suffix}", [one.landmarks], force=True)
-    files = [
-        output / "landmarks.csv",
-        output / "landmarks_wide.csv",
-        output / "landmarks.tps",
-        output / "specimens.csv",
-    ]
+    files = [output / name for name in ("landmarks.csv", "landmarks_wide.csv", "landmarks.tps", "specimens.csv")]
     write_rows(files[0], _long_rows(fitting))
     write_rows(files[1], wide_rows([one.landmarks for one in fitting]))
     write_landmark_sets(files[2], [one.landmarks for one in fitting], force=True)
@@ -61,9 +54,8 @@ def read_study(output: Path) -> tuple[list[SpecimenLandmarks], str]:
     try:
         rows, specimens = read_table(output / "landmarks.csv"), read_table(output / "specimens.csv")
         suffix = landmark_suffix(next((output / "landmarks").iterdir()))
-        return [
-            _read_specimen(one, [row for row in rows if row["specimen"] == one["specimen"]]) for one in specimens
-        ], suffix
+        own = [[row for row in rows if row["specimen"] == one["specimen"]] for one in specimens]
+        return list(map(_read_specimen, specimens, own)), suffix
     except (OSError, KeyError, ValueError, StopIteration) as error:
         remedy = "run kfmaps landmarks transfer first"
         raise refuse(f"study {output}", "a folder of kfmaps landmarks transfer", str(error), remedy) from error
@@ -141,8 +133,8 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks]) -> list[Path]
     base = template.points.points[columns]
     if np.isfinite(base).all():
         mesh = read_shape_mesh(template.scan)
-        for sign, word in ((-1, "minus"), (1, "plus")):
-            extreme = found.consensus + sign * EXTREME * np.sqrt(parts.variances[0]) * parts.directions[0]
+        for deviations, word in ((-2, "minus"), (2, "plus")):  # standard deviations of the first component
+            extreme = found.consensus + deviations * np.sqrt(parts.variances[0]) * parts.directions[0]
             warped = Mesh(thin_plate_warp(mesh.vertices, base, extreme), mesh.faces)
             write_mesh(folder / f"PC1_{word}.ply", warped, force=True)
     return [folder / "pca_scores.csv", folder / "procrustes.csv"]

@@ -11,7 +11,7 @@ and the latent maps fit the candidates that count. The tolerance falls slowly, s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array, eye_array
@@ -63,7 +63,7 @@ class SyncResult:
     residuals: tuple[np.ndarray, ...]
     limit: float  # residual from which a candidate is rather wrong
     # (n,): connected component of each shape; shapes of different components say nothing about each other.
-    component: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    component: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,14 +116,12 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
         [np.clip([c.log_odds for c in edge.candidates], -MAX_LOG_ODDS, MAX_LOG_ODDS) for edge in edges],
     )
     result = _solve(problem, functions)
-    max_rejoins = 3  # rounds in which parts of the graph that agree within may be turned against each other as wholes
-    for _ in range(max_rejoins):
+    for _ in range(3):  # rounds in which parts of the graph that agree within may be turned as wholes
         turned = _rejoin(problem, result)
         if turned is None:
             break
         result = turned
-    pairs = np.array(ends, dtype=np.int64).reshape(-1, 2)
-    return replace(result, component=component_labels(count, pairs[:, 0], pairs[:, 1])[1].astype(np.int64))
+    return result
 
 
 def _solve(problem: _Problem, functions: int) -> SyncResult:
@@ -220,7 +218,9 @@ def _refine(problem: _Problem, latent: np.ndarray, limit: float) -> SyncResult:
             break
         latent = _sweep(problem, latent, problem.probabilities(problem.residuals(latent), limit, limit / 3))
     residuals = problem.residuals(latent)
-    return SyncResult(latent, tuple(problem.probabilities(residuals, limit, limit / 3)), tuple(residuals), limit)
+    probabilities = tuple(problem.probabilities(residuals, limit, limit / 3))
+    component = component_labels(problem.count, *np.array(problem.ends, dtype=np.int64).reshape(-1, 2).T)[1]
+    return SyncResult(latent, probabilities, tuple(residuals), limit, component.astype(np.int64))
 
 
 def _rejoin(problem: _Problem, result: SyncResult) -> SyncResult | None:
