@@ -107,6 +107,13 @@ def test_pictures_of_every_kind_are_read(mode: str, kind: str) -> None:
     np.testing.assert_allclose(pixels, halves / 255, atol=0.02)
 
 
+def test_a_grey_picture_of_sixteen_bits_is_read() -> None:
+    file, grey = io.BytesIO(), np.linspace(0, 65535, 8).astype(np.uint16)
+    Image.fromarray(np.tile(grey, (4, 1))).save(file, "png")
+    pixels = decode_picture(Picture(file.getvalue(), "image/png"))
+    np.testing.assert_allclose(pixels, np.broadcast_to(grey[None, :, None] / 65535, (4, 8, 3)), atol=1e-4)
+
+
 def test_the_identity_gives_back_the_picture() -> None:
     """Every texel inside a face, when source and target are one and the same."""
     shape = own_atlas(fibonacci_sphere(60))

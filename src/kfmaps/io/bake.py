@@ -32,7 +32,10 @@ def decode_picture(picture: Picture) -> np.ndarray:
     from PIL import Image
 
     try:
-        return np.asarray(Image.open(io.BytesIO(picture.data)).convert("RGB")) / 255.0
+        image = Image.open(io.BytesIO(picture.data))
+        if image.mode.startswith("I"):  # grey of sixteen bits, which would be clipped
+            return np.repeat(np.asarray(image)[:, :, None] / 65535.0, 3, axis=2)
+        return np.asarray(image.convert("RGB")) / 255.0
     except (OSError, ValueError, SyntaxError) as error:
         raise refuse("the texture", "a PNG or JPEG file", str(error)[:80], "export it again") from error
 
