@@ -65,7 +65,7 @@ def buffer_files(data: bytes, name: str) -> list[Path]:
 
 
 def _split(data: bytes, name: str) -> tuple[JsonObject, bytes | None]:
-    """The JSON tree of a file, and the binary chunk of a GLB, whose chunks must fill it exactly."""
+    """The JSON tree of a file, and the binary chunk of a GLB."""
     binary = None
     if data[:4] == b"glTF":
         version, length, first = (int.from_bytes(data[i : i + 4], "little") for i in (4, 8, 12))
@@ -73,10 +73,9 @@ def _split(data: bytes, name: str) -> tuple[JsonObject, bytes | None]:
             raise refuse(name, "a GLB file of version 2", f"version {version}", "export it again")
         if length != len(data) or 20 + first > len(data):
             raise refuse(name, f"a file of {length} bytes, as it says", f"{len(data)} bytes", _CUT)
-        at = 20 + first
-        size = int.from_bytes(data[at : at + 4], "little")
-        if data[at + 4 : at + 8] == b"BIN\0":
-            binary = data[at + 8 : at + 8 + size]
+        at = 28 + first
+        if data[at - 4 : at] == b"BIN\0":
+            binary = data[at : at + int.from_bytes(data[at - 8 : at - 4], "little")]
         data = data[20 : 20 + first]
     tree = json.loads(data)
     version = str(tree["asset"]["version"])

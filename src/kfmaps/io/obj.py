@@ -141,8 +141,7 @@ def _picture(said: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> 
     either, and so are pictures that are moved or scaled: who wants the shape alone need not have them. Specification:
     Alias/Wavefront, "MTL material format", 1995.
 
-    ``said``: the file's lines ``mtllib`` and ``usemtl``, from line 1 on, ascending; ``faces (p,)``: the line of each
-    face; ``name``: the OBJ file.
+    ``said``: the file's lines ``mtllib`` and ``usemtl``: number, word, rest; ``faces (p,)``: the line of each face.
     """
     used = [(line, rest) for line, word, rest in said if word == "usemtl"]
     if not used or len(faces) == 0:

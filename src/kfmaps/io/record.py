@@ -120,11 +120,7 @@ def unit_colors(colors: np.ndarray) -> np.ndarray:
 
 
 def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
-    """Return ``colors`` as (n, 3) float64 from 0 to 1.
-
-    ``colors (n, 3)``: fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
-    column (alpha) is left out.
-    """
+    """Return the colours that :func:`kfmaps.write_mesh` takes as (n, 3) float64 from 0 to 1."""
     colors = np.asarray(colors)
     colors = colors[:, :3] if colors.shape[1:] == (4,) else colors
     check(colors, "colors", shape=(n, 3), remedy="give red, green and blue for each vertex")

@@ -66,13 +66,7 @@ def read_bytes(path: str | Path) -> bytes:
 
 
 def read_text(path: str | Path) -> str:
-    """Return the content of the regular file ``path``, which is UTF-8 text.
-
-    Raises
-    ------
-    InvalidInput
-        As :func:`read_bytes`, and when it is no text.
-    """
+    """Return the content of the regular file ``path``, which must be UTF-8 text."""
     try:
         return read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -119,13 +113,7 @@ def is_number(word: str) -> bool:
 
 
 def clean_text(data: bytes, name: str, comment: bytes = b"#") -> bytes:
-    """Return ``data`` with line ends made ``\\n`` and comments blanked; line numbers stay.
-
-    Raises
-    ------
-    InvalidInput
-        When it is not text of one byte a letter.
-    """
+    """Return the text ``data`` with line ends made ``\\n`` and comments blanked; line numbers stay."""
     data = data.removeprefix(b"\xef\xbb\xbf")
     if b"\0" in data:
         raise refuse(name, "a text file", "binary data", "check that the file's extension is right")
