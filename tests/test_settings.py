@@ -112,6 +112,13 @@ def test_an_unknown_option_is_answered_with_the_setting(option: str) -> None:
     assert f"--set {REMOVED[option]}=VALUE" in run("match", "a.ply", "b.ply", option, "1").error
 
 
+@pytest.mark.parametrize(
+    ("words", "option"), [("match a.ply b.ply --set", "--set"), ("evaluate m --truth a", "--truth")]
+)
+def test_an_option_without_its_value_is_told(words: str, option: str) -> None:
+    assert f"Option '{option}' requires" in run(*words.split()).error
+
+
 def test_no_option_changes_nothing() -> None:
     for name in PRESETS:
         assert chosen(base=preset(name)) == preset(name)

@@ -199,7 +199,7 @@ def _run(words: Sequence[str]) -> int:
 def _other_option(error: Exception, context: Any) -> str:
     """Name the settings that an unknown option may mean, where the command takes ``--set``."""
     option = getattr(error, "option_name", None)
-    if option is None or all(parameter.name != "assign" for parameter in context.command.params):
+    if None in (option, context) or all(parameter.name != "assign" for parameter in context.command.params):
         return ""
     from kfmaps.settings.merge import similar_settings
 
