@@ -13,7 +13,7 @@ import typer
 
 from kfmaps._arrays import KfmapsWarning, MissingDependency, check, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.cli.evaluation import Accuracy, Truth, assess, known_truth
+from kfmaps.cli.evaluation import assess, known_truth
 from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
 from kfmaps.cli.progress import Stages
 from kfmaps.cli.summary import table
@@ -91,7 +91,20 @@ def match(
     own = None if descriptors is None else _own_descriptors(descriptors, meshes)
     known = known_truth(truth, n_s, n_t)
 
-    found, accuracy = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
+    seconds: dict[str, float] = {}
+    with one_blas_thread(), Stages(quiet or json) as stages:
+        names = (str(source), str(target))
+        shapes = prepare_both(*meshes, config, names, _renamed(stages, names))
+        for side, shape in zip(_SIDES, shapes, strict=True):
+            seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
+        found = matched(*shapes, config, landmarks=pairs, descriptors=own, rng=seed, progress=stages)
+        accuracy = None
+        if known is not None:
+            stages("evaluation", 0.0)
+            accuracy = assess(meshes[0], found.target_to_source, known)
+            stages("evaluation", 1.0)
+    found = with_files(found, (source, target), meshes)
+    found = replace(found, seconds={**seconds, **found.seconds})
     save_map(output, found, force)
     if json:
         errors = None if accuracy is None else accuracy.as_dict()
@@ -102,36 +115,6 @@ def match(
         _show(found, output, truth)
     if not meets(found.verdict, require):
         raise typer.Exit(UNSURE)
-
-
-def run(
-    meshes: tuple[Mesh, Mesh],
-    paths: tuple[Path, Path],
-    config: Config,
-    landmarks: np.ndarray | None = None,
-    descriptors: tuple[np.ndarray, np.ndarray] | None = None,
-    seed: int = 0,
-    *,
-    quiet: bool = False,
-    truth: Truth | None = None,
-) -> tuple[Match, Accuracy | None]:
-    """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
-    seconds: dict[str, float] = {}
-    with one_blas_thread(), Stages(quiet) as stages:
-        names = (str(paths[0]), str(paths[1]))
-        shapes = prepare_both(meshes[0], meshes[1], config, names, _renamed(stages, names))
-        for side, shape in zip(_SIDES, shapes, strict=True):
-            seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
-        found = matched(
-            shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=seed, progress=stages
-        )
-        accuracy = None
-        if truth is not None:
-            stages("evaluation", 0.0)
-            accuracy = assess(meshes[0], found.target_to_source, truth)
-            stages("evaluation", 1.0)
-    found = with_files(found, paths, meshes)
-    return replace(found, seconds={**seconds, **found.seconds}), accuracy
 
 
 def _read(path: Path, config: Config) -> Mesh:
