@@ -60,7 +60,7 @@ class Model(torch.nn.Module):
     config : Config
         Settings that learning starts from; what is not learned stays.
     pairs : sequence of TrainingPair
-        Only their descriptors are used: their number, automatic γ and directions.
+        Only their descriptors are used: their number, samples and directions.
     parts : sequence of str
         Keys of :data:`PARTS`.
     rank : int, or mapping of "signature", "landmark", "shot" to int
@@ -92,15 +92,6 @@ class Model(torch.nn.Module):
             raise refuse("pairs", "equally many landmarks and descriptors on all pairs", got, "give as many to each")
         self.config, self.parts, self.kernel = config, tuple(parts), config.kernel
         self.blocks = _blocks(config.descriptors, *counts.pop())
-        gamma = float(np.log(np.median([pair.gamma for pair in pairs])))
-        if isinstance(self.kernel, Gaussian | Laplacian):
-            middle = np.arange(_COMPONENTS if "mixture" in parts else 1)
-            middle = middle - len(middle) // 2
-            self._add("log_gamma", gamma + np.log(_GAMMA_RATIO) * middle, {"gamma", "mixture"})
-            # The middle kernel begins alone but for a hundredth, through which the others can grow.
-            self._add("log_share", np.where(middle == 0, 0.0, np.log(0.01)), {"mixture"})
-        else:
-            self.kernel = resolve_kernel(self.kernel, pairs[0].samples.numpy(), config.bandwidth_scale)
         self.terms = tuple(name for name in ("descriptors", "laplacian") if getattr(config.weights, name) > 0)
         self._add("log_terms", np.log([getattr(config.weights, name) for name in self.terms]), {"terms"})
         for kind, block in dict(self.blocks).items():
@@ -113,12 +104,20 @@ class Model(torch.nn.Module):
             inner = np.hstack([draw.normal(size=(_HIDDEN, len(self.network_columns))) * 2.0, np.zeros((_HIDDEN, 1))])
             self._add("layer_0", inner, {"network"})
             self._add("layer_1", 0.01 * draw.normal(size=(_OUTPUTS, _HIDDEN + 1)), {"network"})
-        if "metric" in parts and isinstance(self.kernel, Gaussian | Laplacian):
-            # The metric has another scale than the descriptors.
+        samples, kernel = [pair.samples.numpy() for pair in pairs], self.kernel
+        if not isinstance(kernel, Gaussian | Laplacian):
+            self.kernel = resolve_kernel(kernel, samples[0], config.bandwidth_scale)
+            return
+        if "metric" in parts:  # of another scale than the descriptors
             with torch.no_grad():
-                transformed = [self.transform(pair.samples).numpy() for pair in pairs]
-                width = np.log(_automatic_gamma(self.kernel, transformed, config.bandwidth_scale))
-                self.get_parameter("log_gamma").add_(width - gamma)
+                samples, kernel = [self.transform(pair.samples).numpy() for pair in pairs], replace(kernel, gamma=None)
+        known = [resolve_kernel(kernel, X, config.bandwidth_scale) for X in samples]
+        gamma = np.median([k.gamma or 1.0 for k in known if isinstance(k, Gaussian | Laplacian)])
+        middle = np.arange(_COMPONENTS if "mixture" in parts else 1)
+        middle = middle - len(middle) // 2
+        self._add("log_gamma", np.log(gamma) + np.log(_GAMMA_RATIO) * middle, {"gamma", "mixture"})
+        # The middle kernel begins alone but for a hundredth, through which the others can grow.
+        self._add("log_share", np.where(middle == 0, 0.0, np.log(0.01)), {"mixture"})
 
     def _add(self, name: str, values: ArrayLike, parts: set[str]) -> None:
         tensor = torch.tensor(np.asarray(values), dtype=torch.float64)
@@ -208,12 +207,6 @@ def _rank_of(rank: int | Mapping[str, int], kind: str) -> int:
     if rank.get(kind, 0) < 1:
         raise refuse("rank", f"rows for {kind}", repr(dict(rank)), "name as many kinds as there are")
     return rank[kind]
-
-
-def _automatic_gamma(kernel: Gaussian | Laplacian, transformed: Sequence[np.ndarray], sharpness: float) -> float:
-    """Return the automatic γ for transformed samples of pairs: the median over them."""
-    kernels = [resolve_kernel(replace(kernel, gamma=None), X, sharpness) for X in transformed]
-    return float(np.median([k.gamma or 1.0 for k in kernels if isinstance(k, Gaussian | Laplacian)]))
 
 
 def _bind(kernel: Any, **values: Any) -> Any:

@@ -16,7 +16,6 @@ from kfmaps.fmap.nearest import nearest
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
@@ -48,7 +47,6 @@ class TrainingPair:
     descriptors_s: torch.Tensor  # (n_s, d): normalised as the configuration says
     descriptors_t: torch.Tensor  # (n_t, d)
     samples: torch.Tensor  # (q, d): of the Nyström approximation, half from each shape
-    gamma: float  # the automatic γ of this pair; 1 for a kernel without γ
     n_landmarks: int
     truth: PairTruth | None
 
@@ -108,7 +106,6 @@ def training_pair(
     descriptors = pair_descriptors(parts[0].shape, parts[1].shape, bases, config.descriptors, rows, None)
     both = (descriptors.source, descriptors.target)
     chosen = np.concatenate([D[farthest_descriptors(D, min(samples // 2, len(D)), rng)] for D in both])
-    kernel = resolve_kernel(config.kernel, chosen, config.bandwidth_scale)
     k = config.basis.n_eigenfunctions
     return TrainingPair(
         f"{source.name} {target.name}",
@@ -117,7 +114,6 @@ def training_pair(
         torch.from_numpy(to_numpy(both[0])),
         torch.from_numpy(to_numpy(both[1])),
         torch.from_numpy(chosen),
-        float(kernel.gamma or 1.0) if isinstance(kernel, Gaussian | Laplacian) else 1.0,
         len(landmarks),
         None if truth is None else _truth(source, target, (parts[0].vertices, parts[1].vertices), k, truth),
     )
