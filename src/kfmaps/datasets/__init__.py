@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from kfmaps._arrays import check_count, refuse
-from kfmaps.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC, WAVE, with_proportions
+from kfmaps.datasets.creature import CREATURE, DANCE, SYMMETRIC, WAVE, with_proportions
 from kfmaps.datasets.pairs import ExamplePair, largest_piece, posed_pair
 from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
@@ -49,7 +49,7 @@ def non_isometric(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
-    unbent, bent = with_proportions({}, PROPORTIONS), with_proportions(DANCE, PROPORTIONS)
+    unbent, bent = with_proportions({}), with_proportions(DANCE)
     counts = _counts(vertices)
     return posed_pair("non-isometric", Body(CREATURE), WAVE, bent, counts, rng, unbent_t=unbent)
 

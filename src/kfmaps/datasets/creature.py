@@ -97,7 +97,7 @@ DANCE = {
 }
 """On the right leg, the left one lifted, the right arm raised, the tail swung round."""
 
-PROPORTIONS = {
+_PROPORTIONS = {
     "trunk": (1.05, 1.35),
     "head": (0.95, 1.0),
     "snout": (1.3, 1.0),
@@ -114,6 +114,6 @@ PROPORTIONS = {
 """(longer, thicker): a fat belly on long legs, large feet, a short tail."""
 
 
-def with_proportions(pose: dict[str, Bend], proportions: dict[str, tuple[float, float]]) -> dict[str, Bend]:
+def with_proportions(pose: dict[str, Bend]) -> dict[str, Bend]:
     """Return the ``pose`` of the creature with other proportions."""
-    return {name: Bend(pose.get(name, Bend()).turns, *factors) for name, factors in proportions.items()}
+    return {name: Bend(pose.get(name, Bend()).turns, *factors) for name, factors in _PROPORTIONS.items()}
