@@ -140,13 +140,14 @@ def _scales_differ(one: Placement, other: Placement) -> bool:
 def _likely_placements(pair: PartPair, scales: list[float], count: int) -> list[Placement]:
     """The placements of all samples that are worth a registration, by relaxation and by beam searches."""
     rough, beams = candidate_placements(pair, scales, count)
-    full = parallel(lambda one: settle(pair, one), [*rough, *beams], pair.threads)
+    settled = parallel(lambda one: settle(pair, one), [*rough, *beams], pair.threads)
     # Few samples of a beam search were placed by their descriptors: its score is too low before registration.
-    by_relaxation, by_beams = (
-        sorted(some, key=lambda one: -one.score) for some in (full[: len(rough)], full[len(rough) :])
-    )
-    likely = select_distinct([*by_relaxation[: count + 1], *by_beams[:2]], _placed_differently, count + 3)
-    return parallel(lambda one: settle_again(pair, one), likely, pair.threads)
+    likely: list[Placement] = []
+    for some, most in ((settled[: len(rough)], count + 1), (settled[len(rough) :], 2)):
+        best = sorted(some, key=lambda one: -one.score)[:most]
+        again = parallel(lambda one: settle_again(pair, one), best, pair.threads)
+        likely += sorted(again, key=lambda one: -one.score)
+    return select_distinct(likely, _placed_differently, count + 3)
 
 
 def _placed_differently(one: Placement, other: Placement) -> bool:
