@@ -97,7 +97,7 @@ def match(
         shapes = prepare_both(*meshes, config, names, _renamed(stages, names))
         for side, shape in zip(_SIDES, shapes, strict=True):
             seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
-        found = matched(*shapes, config, landmarks=pairs, descriptors=own, rng=seed, progress=stages)
+        found = matched(shapes[0], shapes[1], config, landmarks=pairs, descriptors=own, rng=seed, progress=stages)
         accuracy = None
         if known is not None:
             stages("evaluation", 0.0)
