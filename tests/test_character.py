@@ -134,6 +134,21 @@ def test_joints_that_nothing_follows_move_along(source: MeshFile) -> None:
     np.testing.assert_allclose(skin_of(made).matrices[:, :3, 3], 2 * matrices[:, :3, 3] @ turn.T + 1, atol=1e-7)
 
 
+def test_a_chain_that_nothing_follows_moves_with_its_end(pair: ExamplePair, source: MeshFile) -> None:
+    """Two joints above a foot, in one place with it: all three move as the foot does."""
+    own, foot = skin_of(source), skin_of(source).names.index("left foot")
+    n = len(own.names)
+    matrices = np.concatenate([own.matrices, own.matrices[[foot, foot]]])
+    parents = np.concatenate([own.parents, [-1, n]])
+    parents[foot] = n + 1
+    weights = np.hstack([own.weights, np.zeros((len(own.weights), 2))])
+    rig = MeshFile(source.mesh, skin=Skin((*own.names, "top", "middle"), parents, matrices, weights))
+    places = as_map(PointMap(pair.truth_faces, pair.truth_weights), source.mesh)
+    made = skin_of(transfer_character(rig, MeshFile(pair.target), places)).matrices
+    np.testing.assert_allclose(made[n], made[n + 1], atol=1e-12)
+    assert np.abs(made[n] - made[own.parents[foot]]).max() > 0.05, "the foot moves otherwise than the leg"
+
+
 def test_a_tip_moves_with_the_limb_that_it_ends(pair: ExamplePair, source: MeshFile) -> None:
     """Nothing follows the end of a foot, which is lifted with the leg."""
     own = skin_of(source)

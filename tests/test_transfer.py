@@ -182,6 +182,17 @@ def test_glb_keeps_colours_and_shape() -> None:
     assert format_glb(MeshFile(Mesh(mesh.vertices, np.zeros((0, 3))))).startswith(b"glTF")
 
 
+def test_normals_of_a_glb_have_length_one_throughout() -> None:
+    """A vertex of no face too."""
+    data = format_glb(MeshFile(Mesh(np.eye(4, 3), np.array([[0, 1, 2]]))))
+    size = int.from_bytes(data[12:16], "little")
+    tree = json.loads(data[20 : 20 + size])
+    accessor = tree["accessors"][tree["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]]
+    first = 28 + size + tree["bufferViews"][accessor["bufferView"]]["byteOffset"]
+    normals = np.frombuffer(data, "<f4", 12, first).reshape(4, 3)
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, rtol=1e-6)
+
+
 def test_values_of_text_files_are_carried_too(made: types.SimpleNamespace, tmp_path: Path) -> None:
     n = len(made.pair.source.vertices)
     (tmp_path / "a.csv").write_text("height\n" + "".join(f"{i}.5\n" for i in range(n)))
