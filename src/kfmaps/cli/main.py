@@ -199,7 +199,8 @@ def _run(words: Sequence[str]) -> int:
 def _other_option(error: Exception, context: Any) -> str:
     """Name the settings that an unknown option may mean, where the command takes ``--set``."""
     option = getattr(error, "option_name", None)
-    if None in (option, context) or all(parameter.name != "assign" for parameter in context.command.params):
+    parameters = () if context is None else context.command.params
+    if option is None or all(parameter.name != "assign" for parameter in parameters):
         return ""
     from kfmaps.settings.merge import similar_settings
 
