@@ -20,7 +20,7 @@ def kernel_descriptor_term(
     """
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))
-    weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
+    weighted = _weighted(source), _weighted(target)
 
     def sandwich(i: int, j: int) -> Array:
         rows = sides[i][1]
@@ -38,10 +38,8 @@ class HadamardCommutativity:
     """The commutativity term of a whole kernel (equations 10 to 12); made by :func:`hadamard_term`."""
 
     kernel: KernelLike
-    weighted_s: Array  # A Φ
-    weighted_t: Array
-    functions_s: Array
-    functions_t: Array
+    source: Basis
+    target: Basis
     descriptors_s: Array
     descriptors_t: Array
     gram_s: Array
@@ -50,10 +48,11 @@ class HadamardCommutativity:
 
     def apply(self, C: Array) -> Array:
         mixed = namespace(C).zeros_like(C)
-        carried = C @ self.functions_s.T
-        for rows in blocks(self.functions_t.shape[0], self.block):
-            product = (self.functions_t[rows, :] @ carried) * self._cross(rows)
-            mixed = mixed + self.weighted_t[rows, :].T @ (product @ self.weighted_s)
+        carried = C @ self.source.functions.T
+        weighted_s, weighted_t = _weighted(self.source), _weighted(self.target)
+        for rows in blocks(self.target.functions.shape[0], self.block):
+            product = (self.target.functions[rows, :] @ carried) * self._cross(rows)
+            mixed = mixed + weighted_t[rows, :].T @ (product @ weighted_s)
         return C @ self.gram_s + self.gram_t @ C - 2 * mixed
 
     def rhs(self) -> Array:
@@ -64,7 +63,8 @@ class HadamardCommutativity:
     def diagonal(self) -> Array:
         xp = namespace(self.gram_t)
         own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
-        return own - 2 * self._coupling(self.weighted_t * self.functions_t, self.weighted_s * self.functions_s)
+        squares = (_weighted(basis) * basis.functions for basis in (self.target, self.source))
+        return own - 2 * self._coupling(*squares)
 
     def constant(self) -> float:
         return 0.0
@@ -74,8 +74,8 @@ class HadamardCommutativity:
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
         own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
-        squares_t = (self.weighted_t @ U_t) * (self.functions_t @ U_t)
-        return own - 2 * self._coupling(squares_t, (self.weighted_s @ U_s) * (self.functions_s @ U_s))
+        sides = ((self.target, U_t), (self.source, U_s))
+        return own - 2 * self._coupling(*((_weighted(basis) @ U) * (basis.functions @ U) for basis, U in sides))
 
     def _coupling(self, squares_t: Array, squares_s: Array) -> Array:
         cross = self.rhs()
@@ -98,7 +98,7 @@ def hadamard_term(
     """
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))
-    weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
+    weighted = _weighted(source), _weighted(target)
 
     def squares(i: int) -> Array:
         basis, rows = sides[i]
@@ -108,15 +108,10 @@ def hadamard_term(
             total = total + weighted[i][part, :].T @ (product @ weighted[i])
         return total
 
-    return HadamardCommutativity(
-        kernel,
-        weighted[0],
-        weighted[1],
-        source.functions,
-        target.functions,
-        descriptors_s,
-        descriptors_t,
-        squares(0),
-        squares(1),
-        block,
-    )
+    grams = squares(0), squares(1)
+    return HadamardCommutativity(kernel, source, target, descriptors_s, descriptors_t, *grams, block)
+
+
+def _weighted(basis: Basis) -> Array:
+    """``A Φ``, (n, k)."""
+    return basis.functions * basis.mass[:, None]
