@@ -16,8 +16,6 @@ from kfmaps.io.text import read_text
 
 _SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
 """Where the field keeps its shapes when they are not in the top folder; the first that has any counts."""
-_TRUTH_FOLDERS = ("corres", "groundtruth")
-_LANDMARK_FOLDER = "landmarks"
 _PAIRS_FILE = "test_pairs.txt"
 _LONGEST_KEY = 200  # bytes of a key; file systems take names of 255
 
@@ -90,10 +88,10 @@ def find_collection(folder: str | Path) -> ShapeFolder:
         places = ", ".join(f"{name}/" for name in _SHAPE_FOLDERS)
         wanted = f"meshes ({' '.join(READERS)}) in it or in {places}"
         raise refuse(f"collection {folder}", wanted, "none", "check the path")
-    found = [p for name in _TRUTH_FOLDERS for p in _files(folder / name)]
+    found = [p for name in ("corres", "groundtruth") for p in _files(folder / name)]
     lists = {p.name[:-4]: p for p in found if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
     mirrored = {p.name[:-8]: p for p in found if p.name.endswith(".sym.vts")}
-    landmarks = [p for p in _files(folder / _LANDMARK_FOLDER) if p.suffix in (".txt", ".vts") or landmark_suffix(p)]
+    landmarks = [p for p in _files(folder / "landmarks") if p.suffix in (".txt", ".vts") or landmark_suffix(p)]
     pairs = folder / _PAIRS_FILE
     return ShapeFolder(
         folder,

@@ -78,17 +78,13 @@ def read_named_points(path: str | Path, mesh: Mesh, *, specimen: str = "", space
     ``specimen``: whose landmarks are taken from a file of several specimens; ``space`` ("LPS", "RAS" or ""): the mesh's
     coordinate system, where it is known (:func:`~kfmaps.io.landmark_files.mesh_space`).
     """
-    return place_landmarks(choose_specimen(read_landmark_sets(path), specimen, str(path)), mesh, str(path), space=space)
-
-
-def choose_specimen(sets: list[LandmarkSet], specimen: str, name: str) -> LandmarkSet:
-    """Return the landmarks of ``specimen`` out of those of the file ``name``, or the only ones that it has."""
+    sets, name = read_landmark_sets(path), str(path)
     own = next((one for one in sets if specimen and specimen in (one.specimen, Path(one.specimen).stem)), None)
     if own is None and len(sets) > 1:
         got = ", ".join(one.specimen for one in sets[:5])
         remedy = "call the specimen as the scan's file is called"
         raise refuse(name, f"the landmarks of {specimen or 'one specimen'}", f"those of {got}", remedy)
-    return own or sets[0]
+    return place_landmarks(own or sets[0], mesh, name, space=space)
 
 
 def place_landmarks(given: LandmarkSet, mesh: Mesh, name: str, *, space: str = "") -> NamedPoints:
