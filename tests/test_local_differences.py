@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from kfmaps.batch.landmark_tables import local_differences, write_local_differences
 from kfmaps.batch.layout import Pair, find_collection
-from kfmaps.batch.local_differences import local_differences, write_local_differences
 from kfmaps.batch.results import Result
 from kfmaps.batch.transfer_landmarks import given_landmarks, read_templates
 from kfmaps.batch.work import map_path
@@ -21,7 +21,7 @@ from kfmaps.io import save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, write_landmark_sets
 from kfmaps.matching.result import Match
 
-GUARDS = ("kfmaps.batch.local_differences",)
+GUARDS = ("kfmaps.batch.landmark_tables",)
 
 POINTS = np.array([[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]])
 STRETCH = 1.5

@@ -15,9 +15,8 @@ import typer
 from typer.core import TyperGroup
 
 from kfmaps._arrays import KfmapsWarning, refuse
-from kfmaps.batch.landmark_tables import read_corrections, write_study
+from kfmaps.batch.landmark_tables import read_corrections, write_local_differences, write_study
 from kfmaps.batch.layout import find_collection
-from kfmaps.batch.local_differences import write_local_differences
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.progress import RunReport
 from kfmaps.batch.run import run_batch
