@@ -454,7 +454,7 @@ MUTANTS = tuple(
             "test_registration_accepted",
         ),
         (
-            "held = np.clip(2 * (trust - first.trust) / _MIN_CHANGE - 1, 0.0, 1.0)",
+            "held = np.clip(2 * (trust - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)",
             "held = np.zeros(len(trust))",
             "test_registration_accepted",
         ),

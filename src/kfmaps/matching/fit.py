@@ -67,22 +67,12 @@ class Fit:
 
 @dataclass(frozen=True, eq=False)
 class FitPoints:
-    """The points of two shapes that a fit is made from, and what is known there.
+    """The points of two shapes that a fit is made from, and what is known there."""
 
-    Attributes
-    ----------
-    shapes : pair of Shape
-        All points, or samples that stand for them.
-    bases : pair of Basis
-        Theirs, on the device where the work is done.
-    descriptors : Descriptors
-    weights : (g,) float64 or None
-        By which the descriptors of each landmark, or each descriptor, are scaled under a robust loss.
-    """
-
-    shapes: tuple[Shape, Shape]
-    bases: tuple[Basis, Basis]
+    shapes: tuple[Shape, Shape]  # all points, or samples that stand for them
+    bases: tuple[Basis, Basis]  # theirs, on the device where the work is done
     descriptors: Descriptors
+    # (g,): by which the descriptors of each landmark, or each descriptor, are scaled under a robust loss.
     weights: np.ndarray | None = None
 
 
@@ -195,5 +185,4 @@ def fit_points(
     used = pair_descriptors(*small, bases, config.descriptors, sampled.landmarks, sampled.descriptors)
     if not config.formulation.weighs_data:
         return FitPoints(small, bases, used)
-    weighed = robust_weights(used, bases, config)
-    return FitPoints(small, bases, weighed.descriptors, weighed.weights)
+    return FitPoints(small, bases, *robust_weights(used, bases, config))

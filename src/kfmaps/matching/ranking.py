@@ -30,21 +30,12 @@ BENT = 3
 
 @dataclass(frozen=True, eq=False)
 class ProxyCache:
-    """Of two shapes, each made when it is first asked for; ``None`` where a shape has no faces to bend.
-
-    Attributes
-    ----------
-    source, target : Shape
-    coarse : pair of Copy or None
-        Of few points, as the probes have them.
-    mirrored : bool
-        Whether they are of the target's mirror image.
-    """
+    """Copies of two shapes, made when they are first asked for; ``None`` where a shape has no faces to bend."""
 
     source: Shape
     target: Shape
-    copies: tuple[CoarseProxy | None, CoarseProxy | None]
-    mirrored: bool = False
+    copies: tuple[CoarseProxy | None, CoarseProxy | None]  # of few points, as the samples have them
+    mirrored: bool = False  # whether they are of the target's mirror image
 
     @classmethod
     def of(cls, source: Shape, target: Shape, samples: SamplePair) -> ProxyCache:

@@ -9,7 +9,7 @@ formed, whichever it is: what is weighed at zero is as good as not there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,19 +25,13 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.matching.features import Descriptors
 
 
-@dataclass(frozen=True, eq=False)
-class RobustWeights:
-    """Descriptors scaled by how far they are believed, and the weight of each landmark or descriptor, (g,)."""
+def robust_weights(
+    descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config
+) -> tuple[Descriptors, np.ndarray]:
+    """Return ``descriptors`` times square roots of the weights of a robust loss, and the weights (g,).
 
-    descriptors: Descriptors
-    weights: np.ndarray
-
-
-def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config) -> RobustWeights:
-    """Return ``descriptors`` times square roots of the weights of a robust loss per landmark or descriptor.
-
-    ``descriptors``: those of no landmark keep their size when the loss is per landmark; ``config``: its formulation and
-    weights count.
+    They are those of landmarks or of descriptors. ``descriptors``: those of no landmark keep their size when the loss
+    is per landmark; ``config``: its formulation and weights count.
     """
     asked = config.formulation
     if asked.loss_group == "landmark":
@@ -70,4 +64,4 @@ def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config:
     root = like(np.sqrt(columns), descriptors.source)[None, :]
     scaled = replace(descriptors, source=descriptors.source * root, target=descriptors.target * root)
     first = np.unique(groups, return_index=True)
-    return RobustWeights(scaled, columns[first[1][first[0] >= 0]])
+    return scaled, columns[first[1][first[0] >= 0]]

@@ -12,7 +12,6 @@ from kfmaps.config import Config
 from kfmaps.fmap.confidence import build_local_distortion
 from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import vertex_areas
-from kfmaps.registration.nonrigid_icp import Registration
 from kfmaps.shape import Shape
 
 _MAX_GAP = 0.02
@@ -59,16 +58,6 @@ class RegisteredMap:
     fit: RegistrationReport | None = None  # what the fit tells of the map, kept or not; ``None`` where none was made
 
 
-@dataclass(frozen=True, eq=False)
-class _Tried:
-    """A fit and what it tells."""
-
-    found: Registration
-    vertices: np.ndarray
-    trust: np.ndarray
-    told: RegistrationReport
-
-
 def register_map(
     points: np.ndarray,
     source: Shape,
@@ -101,7 +90,7 @@ def register_map(
     areas = vertex_areas(target.mesh)
     areas = areas / areas.sum()
 
-    def tried(held: np.ndarray | None) -> _Tried:
+    def tried(held: np.ndarray | None) -> tuple[RegisteredMap, RegistrationReport]:
         stage = "non-rigid fit" if held is None else "non-rigid fit, held"
         with clock(stage):
             report = partial(clock.report, stage)
@@ -109,25 +98,25 @@ def register_map(
         before, pinned = float(trust.mean()), held is not None
         told = RegistrationReport(found.gap, found.bending, before, pinned=pinned, landmarks_held=hold)
         if found.gap > _MAX_GAP:
-            return _Tried(found, points, trust, told)
-        vertices = nearest_vertices(PointMap(found.faces, found.weights), source.mesh)
+            return RegisteredMap(points, None, None, trust, told), told
+        place = PointMap(found.faces, found.weights)
+        vertices = nearest_vertices(place, source.mesh)
         with clock("confidence after the fit"):
             after = confidence(vertices)
         harmed, healed = (float(areas[change > _MIN_CHANGE].sum()) for change in (trust - after, after - trust))
         kept = harmed <= _MAX_WORSENED_AREA or healed >= 0.5 * harmed
         told = replace(told, after=float(after.mean()), worsened=harmed, improved=healed)
-        return _Tried(found, vertices, after, replace(told, accepted=kept, reason=None if kept else "harm"))
+        told = replace(told, accepted=kept, reason=None if kept else "harm")
+        return RegisteredMap(vertices, place, found.vertices, after, told), told
 
-    first = best = tried(None)
+    first, told = best, kept = tried(None)
     # Where sizes may change distances do, rightly: what a fit that is kept has changed there is no reason to hold it.
-    if first.told.worsened > _MAX_WORSENED_AREA and not (getattr(finish, "local_scaling", 0) and first.told.accepted):
-        held = np.clip(2 * (trust - first.trust) / _MIN_CHANGE - 1, 0.0, 1.0)
-        second = tried(held)
-        best = second if second.told.accepted or not first.told.accepted else first
-    if not best.told.accepted:
-        return RegisteredMap(points, None, None, trust, best.told)
-    place = PointMap(best.found.faces, best.found.weights)
-    return RegisteredMap(best.vertices, place, best.found.vertices, best.trust, best.told)
+    if told.worsened > _MAX_WORSENED_AREA and not (getattr(finish, "local_scaling", 0) and told.accepted):
+        held = np.clip(2 * (trust - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)
+        second, again = tried(held)
+        if again.accepted or not told.accepted:
+            best, kept = second, again
+    return best if kept.accepted else RegisteredMap(points, None, None, trust, kept)
 
 
 def _less_exact(landmarks: np.ndarray | None, points: np.ndarray, vertices: np.ndarray) -> bool:
