@@ -64,8 +64,8 @@ def both(source, target) -> ProxyPair:
     return proxy_pair(source, target, (a, b))
 
 
-def ended(*what) -> alternate.AlternatingResult:
-    *_, last = alternating_registration(*what, NO_LANDMARKS)
+def ended(C, on, led) -> alternate.AlternatingResult:
+    *_, last = alternating_registration(C, on, led, NO_LANDMARKS)
     return last
 
 

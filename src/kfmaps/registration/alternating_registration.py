@@ -54,7 +54,8 @@ class ProxyPair:
 
     def swapped(self) -> ProxyPair:
         """Return the same for maps the other way."""
-        return ProxyPair(self.target, self.source, self.copies[::-1], self.back, self.forth)
+        a, b = self.copies
+        return ProxyPair(self.target, self.source, (b, a), self.back, self.forth)
 
     def nearest(self, landmarks: np.ndarray) -> np.ndarray:
         """Return the vertices of the copies that are nearest to ``landmarks (l, 2)``, (l, 2)."""
