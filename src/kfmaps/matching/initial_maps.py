@@ -37,7 +37,7 @@ from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import minimize_problem
 
 KernelWeights = tuple[float, ...]
-"""Of SHOT (or of a learned metric), of landmarks and of extremities."""
+"""Of SHOT, of landmarks and of extremities."""
 LITTLE: KernelWeights = (4.0, 12.0)
 MUCH: KernelWeights = (12.0, 12.0)
 WEIGHTS: tuple[KernelWeights, ...] = ((0.0, 0.0), MUCH, LITTLE)
@@ -279,4 +279,4 @@ def _weighed(used: Descriptors, bases: tuple[Basis, Basis], config: Config) -> D
     asked = config.formulation
     if not asked.weighs_data or (asked.loss_group == "landmark" and not (used.landmark >= 0).any()):
         return used
-    return robust_weights(used, bases, config).descriptors
+    return robust_weights(used, bases, config)[0]
