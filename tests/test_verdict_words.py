@@ -9,7 +9,9 @@ from kfmaps.cli.evaluation import Truth, assess
 from kfmaps.cli.summary import table
 from kfmaps.cli.words import VERDICTS, plural, probability_text, verdict_text
 from kfmaps.collection.repair import CyclePath, MapEvidence, Replacement
+from kfmaps.config import Config
 from kfmaps.datasets import sphere
+from kfmaps.kernels.transformed import Metric
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
 from kfmaps.registration.accept import RegistrationReport
@@ -46,7 +48,8 @@ def _summary(match: Match) -> dict[str, str]:
 def _match(**fields: Any) -> Match:
     mesh = sphere(1500)
     points = np.arange(len(mesh.vertices))
-    return Match(points, source=mesh, target=mesh, local_confidence=np.ones(len(points)), verdict="sure", **fields)
+    known = {"source": mesh, "target": mesh, "verdict": "sure", "config": Config()}
+    return Match(points, local_confidence=np.ones(len(points)), **known, **fields)
 
 
 def test_the_summary_says_which_landmarks_had_no_say() -> None:
@@ -70,6 +73,8 @@ def test_the_summary_says_what_part_the_kernel_had() -> None:
     told = _summary(replace(once, fit=fitted))
     assert told["fit"] == "Gaussian(gamma=0.1235), 30 features; converged in 7 steps"
     assert "kernel" not in told
+    learned = _summary(replace(searched, config=Config(kernel=Metric(matrix=(1.0, 2.0)))))
+    assert learned["kernel"] == "a search leaves the learned one out; --set search=none takes it"
 
 
 def test_the_summary_says_what_is_odd() -> None:

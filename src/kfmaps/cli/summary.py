@@ -14,6 +14,7 @@ from kfmaps._arrays import shown
 from kfmaps.cli.evaluation import Accuracy
 from kfmaps.cli.words import UNIT, percent, probability_text, verdict_text
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.kernels.transformed import descriptor_width
 from kfmaps.matching.finish import low_confidence_area
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT
@@ -70,7 +71,9 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         steps = f" in {fit.steps} steps" if fit.steps else ""
         rows.append(("fit", f"{kernel}, {fit.rank} features; {fit.status}{steps}"))
     elif match.confidence is not None:
-        rows.append(("kernel", f"{kernel}, in the initial map" if kernel else "had no part in this map"))
+        part = f"{kernel}, in the initial map" if kernel else "had no part in this map"
+        learned = "a search leaves the learned one out; --set search=none takes it"
+        rows.append(("kernel", part if descriptor_width(match.config.kernel) is None else learned))
     spent = sorted(match.seconds.items(), key=lambda item: -item[1])
     longest = ", ".join(f"{name} {seconds:.1f}" for name, seconds in spent[:3])
     rows.append(("time", f"{sum(match.seconds.values()):.1f} s, most of it for: {longest}"))
