@@ -157,7 +157,8 @@ def test_a_candidate_pays_for_landmarks_that_it_contradicts(half, monkeypatch):
     places = places.copy()
     places[marked.part.landmarks] = on.whole.mesh.vertices[marked.whole.landmarks]
     off[marked.part.landmarks, 0] = [0.0, 0.99 * limit, 1.01 * limit]
-    plain = register_part(on, scale, *np.tile(places[on.part.samples], (2, 1, 1)), np.ones(len(on.part.samples)), True)
+    ends = places[on.part.samples]
+    plain = register_part(on, scale, ends, ends, np.ones(len(ends)), True)
     monkeypatch.setattr(contest, "register_part", lambda *_, **__: replace(plain, vertices=places + off))
     placed = Placement(scale, TRIALS[0], Assignment(np.arange(100), np.ones(100), 1.0), np.ones((100, 300)))
     found, free = make_candidate(placed, marked), make_candidate(placed, on)
@@ -237,10 +238,10 @@ def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better
     rows = farthest_geodesic(pieces[1][0], 40, 0)
     rows = rows[true[rows] >= 0][:4]
     config = replace(SMALL, partial=Partial("both", samples=100, whole_samples=300))
-    shapes = [prepare(mesh, config, name=name) for (mesh, _), name in zip(pieces, "ab", strict=True)]
-    found = match_partial(*shapes, config, "both", landmarks=np.stack([true[rows], rows], axis=1))
+    source, target = (prepare(mesh, config, name=name) for (mesh, _), name in zip(pieces, "ab", strict=True))
+    found = match_partial(source, target, config, "both", landmarks=np.stack([true[rows], rows], axis=1))
     assert len(found.rejected_landmarks) == 0
-    on, places = (true >= 0) & (found.target_to_source >= 0), shapes[0].mesh.vertices
+    on, places = (true >= 0) & (found.target_to_source >= 0), source.mesh.vertices
     assert np.linalg.norm(places[found.target_to_source[on]] - places[true[on]], axis=1).mean() < 0.08
 
 
