@@ -87,21 +87,23 @@ def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
     F_s, F_t = features.source, features.target
     n_s, n_t, r = F_s.shape[0], F_t.shape[0], F_s.shape[1]
     blocked = hadamard_term(Linear(), small[0], F_s, small[1], F_t)
+    phi_s, phi_t = (basis.functions for basis in small)
+    weighted_s, weighted_t = (basis.mass[:, None] * basis.functions for basis in small)
     kernel = F_t @ F_s.T
 
     def literal() -> Array:
         """Equations (10) to (12) as they stand, each kernel matrix from the features."""
-        within_s = (blocked.functions_s @ blocked.functions_s.T) * (F_s @ F_s.T)
-        within_t = (blocked.functions_t @ blocked.functions_t.T) * (F_t @ F_t.T)
-        squares_s = blocked.weighted_s.T @ (within_s @ blocked.weighted_s)
-        squares_t = blocked.weighted_t.T @ (within_t @ blocked.weighted_t)
-        between = (blocked.functions_t @ (C @ blocked.functions_s.T)) * (F_t @ F_s.T)
-        return C @ squares_s + squares_t @ C - 2 * (blocked.weighted_t.T @ (between @ blocked.weighted_s))
+        within_s = (phi_s @ phi_s.T) * (F_s @ F_s.T)
+        within_t = (phi_t @ phi_t.T) * (F_t @ F_t.T)
+        squares_s = weighted_s.T @ (within_s @ weighted_s)
+        squares_t = weighted_t.T @ (within_t @ weighted_t)
+        between = (phi_t @ (C @ phi_s.T)) * (F_t @ F_s.T)
+        return C @ squares_s + squares_t @ C - 2 * (weighted_t.T @ (between @ weighted_s))
 
     def held() -> Array:
         """The coupling alone, its kernel matrix at hand."""
-        product = (blocked.functions_t @ (C @ blocked.functions_s.T)) * kernel
-        mixed = blocked.weighted_t.T @ (product @ blocked.weighted_s)
+        product = (phi_t @ (C @ phi_s.T)) * kernel
+        mixed = weighted_t.T @ (product @ weighted_s)
         return C @ blocked.gram_s + blocked.gram_t @ C - 2 * mixed
 
     def formed(rtol: float) -> Any:

@@ -181,6 +181,7 @@ def test_the_truth_is_measured_as_a_user_measures_it(pair, turned, found, truth,
     assert seen.overlap is not None
     assert seen.overlap > 0.85
     assert seen.matched == pytest.approx((found.target_to_source >= 0).mean())
+    assert seen.missing is not None
     assert 0.1 < seen.missing < 0.6
 
 
