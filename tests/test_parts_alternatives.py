@@ -36,7 +36,7 @@ from test_search import SMALL
 GUARDS = ("kfmaps.matching.partial",)
 
 EMPTY: Any = None
-COST = SCORE.part.w_landmark
+COST = SCORE.part.calibration.landmark_cost
 
 
 @pytest.fixture(scope="module")
@@ -162,14 +162,15 @@ def test_a_candidate_pays_for_landmarks_that_it_contradicts(half, monkeypatch):
     monkeypatch.setattr(contest, "register_part", lambda *_, **__: replace(plain, vertices=places + off))
     placed = Placement(scale, TRIALS[0], Assignment(np.arange(100), np.ones(100), 1.0), np.ones((100, 300)))
     found, free = make_candidate(placed, marked), make_candidate(placed, on)
-    assert (found.evidence.missed_landmarks, free.evidence.missed_landmarks) == (1, 0)
-    assert found.score == pytest.approx(free.score - SCORE.part.w_landmark)
+    assert found.score == pytest.approx(free.score - COST)
+    two = make_candidate(placed, replace(marked, both_partial=True)).evidence
+    assert two.landmark_cost == SCORE.part.calibration_of_two.landmark_cost
 
 
 def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(monkeypatch):
     """So the verdict is not that of a bad placement where landmarks are wrong."""
     found = [
-        SimpleNamespace(score=s, evidence=PartEvidence(0.8, -4.0, missed_landmarks=n)) for s, n in ((5, 2), (4, 0))
+        SimpleNamespace(score=s, evidence=PartEvidence(0.8, -4.0, landmark_cost=n * COST)) for s, n in ((5, 2), (4, 0))
     ]
     for one in found:
         one.registration = None

@@ -15,6 +15,7 @@ from kfmaps.matching.score import (
     candidate_score,
     excess_deformation,
     lower_by_torn_area,
+    part_calibration,
     part_score,
     placement_score,
     probability,
@@ -29,7 +30,7 @@ QUALITY = Quality(0.9, 0.1, 0.12, 0.2, 0.1, 0.9, 0.05, 0.3)
 CANDIDATE = Candidate(
     "a", np.eye(2), np.zeros(3, dtype=int), QUALITY, True, np.array([0.1, 0.9]), 0.3, strain=0.4, shot_error=0.05
 )
-PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2)
+PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2.0)
 
 MEASURES = {
     "w_orientation": ("orientation", 1.0),
@@ -57,7 +58,6 @@ PART_WEIGHTS = {
     "w_scale": -1.5 * 0.25,
     "w_flipped": -4.0 * 0.1,
     "w_deformation": -3.0 * np.log(0.025),
-    "w_landmark": -3.0 * 2,
 }
 
 
@@ -90,6 +90,11 @@ def test_the_tables_name_all_weights() -> None:
     named = {*MEASURES, *CANDIDATE_WEIGHTS, "w_torn"}
     assert {f.name for f in fields(SCORE) if f.name.startswith("w_")} == named
     assert {f.name for f in fields(SCORE.part) if f.name.startswith("w_")} == set(PART_WEIGHTS)
+
+
+def test_landmarks_that_a_part_contradicts_cost_more_of_two_parts() -> None:
+    assert part_score(replace(PART, landmark_cost=0.0)) - part_score(PART) == 2.0
+    assert [part_calibration(two).landmark_cost for two in (False, True)] == [1.0, 3.0]
 
 
 def test_torn_area_costs() -> None:

@@ -47,6 +47,9 @@ class Calibration:
     to their mirror images begin at 0.9."""
     excess_width: float = 0.08
     """Width of that logistic function."""
+    landmark_cost: float = 1.0
+    """Cost of a landmark that the placement of a part contradicts: a wrong place of a leg has scored 2.4 more than the
+    right one, a place by three landmarks with left for right 3.3 less (research/parts.md)."""
     sure: float = 0.9
     """Probability from which a map is called "sure"; wrong ones have had up to 0.83."""
     likely: float = 0.5
@@ -59,7 +62,9 @@ class PartScoring:
 
     calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, tie=1.3, max_margin=3.0))
     """Fitted by `benchmarks/parts_verdict.py`."""
-    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0))
+    calibration_of_two: Calibration = field(
+        default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0, landmark_cost=3.0)
+    )
     """That of two parts, whose right placements score less; fitted by the same to `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
@@ -93,8 +98,6 @@ class PartScoring:
     """Gain of the score below which a placement is refined no further."""
     whole_overlap: float = 0.95
     """Common share of the area of both shapes from which neither is a part."""
-    w_landmark: float = 3.0
-    """Cost of a landmark that a placement contradicts."""
     max_landmark_error: float = 0.1
     """Error of a landmark, in √area of the whole, from which a placement contradicts it."""
     min_opening: float = 0.01
@@ -289,7 +292,7 @@ class PartEvidence:
     pair_consistency: float = PartScoring.usual_pair_consistency
     # Of the scale of a small part against that of its file: absolute value of the logarithm of the ratio.
     scale_change: float = 0.0
-    missed_landmarks: int = 0  # landmarks that are off by more than :attr:`PartScoring.max_landmark_error`
+    landmark_cost: float = 0.0  # of the landmarks that are off by more than :attr:`PartScoring.max_landmark_error`
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
@@ -338,9 +341,14 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     fits = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap - numbers.w_flipped * evidence.flipped_area
     fits += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
     fits -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
-    fits -= numbers.w_landmark * evidence.missed_landmarks
+    fits -= evidence.landmark_cost
     stiff = -math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
     return fits + numbers.w_deformation * stiff
+
+
+def part_calibration(two: bool) -> Calibration:
+    """Return the numbers that turn the score of a part, or of one of ``two`` parts, into a probability."""
+    return SCORE.part.calibration_of_two if two else SCORE.part.calibration
 
 
 def excess_deformation(score: float, deformation_energy: float, numbers: Calibration = SCORE.calibration) -> float:

@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.place_part import PlacedPart, place_part
 from kfmaps.matching.partial.registration import missed_landmarks, scale_mesh
-from kfmaps.matching.score import SCORE, Calibration, probability, verdict
+from kfmaps.matching.score import SCORE, Calibration, part_calibration, probability, verdict
 from kfmaps.shape import Shape
 
 COMMON = 0.5
@@ -82,7 +82,7 @@ def match_partial(
         progress=None if progress is None else lambda done: progress("parts", done),
         least_scale=least_scale,
     )
-    numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
+    numbers = part_calibration(which == "both")
     found, rejected = _place_by_landmarks(place_with, pairs[:, ::-1] if forward else pairs, whole.mesh, numbers)
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
@@ -115,8 +115,8 @@ def _place_by_landmarks(
 ) -> tuple[PlacedPart, np.ndarray]:
     """Return a placement, and which of the landmarks ``pairs (l, 2)`` it contradicts, (l,) bool.
 
-    A placement that contradicts some is compared with one by the others, or by none where most are contradicted. So is
-    one that fits nowhere, by the ``numbers`` of its verdict, with one by none. The one with the better score is kept,
+    A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
+    where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept,
     where each pays for every landmark that it contradicts: a slightly better score is no reason to drop right ones.
     """
 
@@ -127,9 +127,9 @@ def _place_by_landmarks(
     wrong = missed(found)
     nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
     if len(pairs) and (nowhere or wrong.any()):
-        kept = ~wrong & (0 < wrong.mean() <= 0.5)
-        again = place_with(landmarks=pairs[kept], progress=None)
-        found = max(again, found, key=lambda one: one.scores[0] - SCORE.part.w_landmark * missed(one).sum())
+        others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
+        again = place_with(landmarks=others, progress=None)
+        found = max(again, found, key=lambda one: one.scores[0] - numbers.landmark_cost * missed(one).sum())
     return found, missed(found)
 
 

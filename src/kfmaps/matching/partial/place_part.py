@@ -37,7 +37,7 @@ from kfmaps.matching.partial.scale_search import (
     settle_again,
     try_scales,
 )
-from kfmaps.matching.score import SCORE, select_distinct
+from kfmaps.matching.score import select_distinct
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of that
 _MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
@@ -109,7 +109,7 @@ def place_part(
     if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
         on = PartSurface(whole)
         last = refine_registration(last, copies[0], part, on)
-    paid = SCORE.part.w_landmark * found[0].evidence.missed_landmarks
+    paid = found[0].evidence.landmark_cost
     return PlacedPart(last, find_overlap(last, on), tuple(one.score + paid for one in found), margin(found, len(pairs)))
 
 
