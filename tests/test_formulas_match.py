@@ -200,19 +200,19 @@ def test_confidence_follows_from_score_bending_and_margin(shape):
     assert found.scores[0] == pytest.approx(found.quality - 5 * np.log(found.deformation_energy / 0.15))
     margin = found.scores[0] - found.scores[1]
     excess = np.log(found.deformation_energy) + 3.6 + 0.233 * found.quality
-    right = (1 - 0.5 * np.exp(-margin / 1.6)) / (1 + np.exp(-0.92 * (found.quality + 12.5)))
+    right = (1 - 0.5 * np.exp(-margin / 1.4)) / (1 + np.exp(-0.92 * (found.quality + 12.0)))
     right /= 1 + np.exp(12.5 * (excess - 0.75))
     assert found.confidence == pytest.approx(right)
     assert (found.verdict == "sure") == (right >= 0.9)
 
 
 def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
-    """See docs/mathematics.md: half where both are as good, and a third of that doubt 1.6 further on."""
-    for score in (-12.5, -8.0, 0.0):
+    """See docs/mathematics.md: half where both are as good, and a third of that doubt 1.4 further on."""
+    for score in (-12.0, -8.0, 0.0):
         alone = probability(score, np.inf)
         assert probability(score, 0.0) == pytest.approx(alone / 2)
-        assert probability(score, 1.6) == pytest.approx(alone * (1 - 0.5 / np.e))
-    assert probability(-12.5, np.inf) == pytest.approx(0.5)
+        assert probability(score, 1.4) == pytest.approx(alone * (1 - 0.5 / np.e))
+    assert probability(-12.0, np.inf) == pytest.approx(0.5)
     for bending in (0.02, 0.2):
         excess = np.log(bending) + 3.6 + 0.233 * -6.0
         share = 1 / (1 + np.exp(12.5 * (excess - 0.75)))

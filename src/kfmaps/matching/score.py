@@ -31,9 +31,9 @@ class Calibration:
 
     slope: float = 0.92
     """Slope of the logistic function of the score."""
-    middle: float = -12.5
+    middle: float = -12.0
     """Score at which half of all maps are right."""
-    tie: float = 1.6
+    tie: float = 1.4
     """Margin at which the doubt that a different map casts has fallen to 1/e. A map that swaps front and back has
     preceded the right one by 2.1."""
     max_margin: float = math.inf
@@ -51,7 +51,7 @@ class Calibration:
     """Cost of a landmark that the placement of a part contradicts: a wrong place of a leg has scored 2.4 more than the
     right one, a place by three landmarks with left for right 3.3 less (research/parts.md)."""
     sure: float = 0.9
-    """Probability from which a map is called "sure"; wrong ones have had up to 0.83."""
+    """Probability from which a map is called "sure"; wrong ones have had up to 0.897."""
     likely: float = 0.5
     """Probability from which a map is called "likely"."""
 
