@@ -272,7 +272,8 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     some = zoom(start, source.basis, target.basis)
     errors = [geodesic_distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
     assert (every.target_to_source != some.target_to_source).any()
-    assert errors[1] < 1.1 * errors[0] + 1e-3
+    spacing = 1 / np.sqrt(1000)  # of the vertices to choose from, in √area
+    assert errors[1] < errors[0] + 0.25 * spacing
     ends = [basis.truncate(50) for basis in (source.basis, target.basis)]
     np.testing.assert_array_equal(some.functional_map, to_functional(some.target_to_source, *ends))  # of all points
 
