@@ -485,9 +485,9 @@ MUTANTS = tuple(
         ("picture = found.pop() if len(found) == 1 else None", "picture = found.pop()", "test_files_obj_picture"),
         # parts
         ("    fits -= evidence.landmark_cost\n", "", "test_score"),
-        ("numbers.landmark_cost * missed(one).sum()", "0.0", "test_parts_alternatives"),
+        ("part_landmark_cost(missed(one), two)", "0.0", "test_parts_alternatives"),
         ("tuple(one.score + paid for", "tuple(one.score for", "test_parts_alternatives"),
-        (".landmark_cost * float(missed.sum())", ".landmark_cost", "test_parts_alternatives"),
+        ("float(missed.sum()) * (", "(", "test_score"),
         ("(agree * _is_inside(found, whole))", "agree", "test_parts_registration"),
         (
             "rest.areas.sum() * trust / trust.sum()",

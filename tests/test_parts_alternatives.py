@@ -36,7 +36,7 @@ from test_search import SMALL
 GUARDS = ("kfmaps.matching.partial",)
 
 EMPTY: Any = None
-COST = SCORE.part.calibration.landmark_cost
+COST = SCORE.part.landmark_cost
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +164,7 @@ def test_a_candidate_pays_for_landmarks_that_it_contradicts(half, monkeypatch):
     found, free = make_candidate(placed, marked), make_candidate(placed, on)
     assert found.score == pytest.approx(free.score - COST)
     two = make_candidate(placed, replace(marked, both_partial=True)).evidence
-    assert two.landmark_cost == SCORE.part.calibration_of_two.landmark_cost
+    assert two.landmark_cost == SCORE.part.landmark_cost_of_two
 
 
 def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(monkeypatch):
@@ -216,7 +216,7 @@ def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_sc
         score = first if len(asked) == 1 else second
         return SimpleNamespace(registration=SimpleNamespace(vertices=moved), scores=(score,), margin=9.0)
 
-    found, named = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration)
+    found, named = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration, two=False)
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])
     assert found.scores[0] == (second if again else first)
     assert np.flatnonzero(named).tolist() == (then if again else wrong)

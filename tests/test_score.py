@@ -15,7 +15,7 @@ from kfmaps.matching.score import (
     candidate_score,
     excess_deformation,
     lower_by_torn_area,
-    part_calibration,
+    part_landmark_cost,
     part_score,
     placement_score,
     probability,
@@ -94,7 +94,7 @@ def test_the_tables_name_all_weights() -> None:
 
 def test_landmarks_that_a_part_contradicts_cost_more_of_two_parts() -> None:
     assert part_score(replace(PART, landmark_cost=0.0)) - part_score(PART) == 2.0
-    assert [part_calibration(two).landmark_cost for two in (False, True)] == [1.0, 3.0]
+    assert [part_landmark_cost(np.array([True, False, True]), two) for two in (False, True)] == [2.0, 6.0]
 
 
 def test_torn_area_costs() -> None:

@@ -47,9 +47,6 @@ class Calibration:
     to their mirror images begin at 0.9."""
     excess_width: float = 0.08
     """Width of that logistic function."""
-    landmark_cost: float = 1.0
-    """Cost of a landmark that the placement of a part contradicts: a wrong place of a leg has scored 2.4 more than the
-    right one, a place by three landmarks with left for right 3.3 less (research/parts.md)."""
     sure: float = 0.9
     """Probability from which a map is called "sure"; wrong ones have had up to 0.897."""
     likely: float = 0.5
@@ -62,9 +59,7 @@ class PartScoring:
 
     calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, tie=1.3, max_margin=3.0))
     """Fitted by `benchmarks/parts_verdict.py`."""
-    calibration_of_two: Calibration = field(
-        default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0, landmark_cost=3.0)
-    )
+    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0))
     """That of two parts, whose right placements score less; fitted by the same to `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
@@ -100,6 +95,11 @@ class PartScoring:
     """Common share of the area of both shapes from which neither is a part."""
     max_landmark_error: float = 0.1
     """Error of a landmark, in √area of the whole, from which a placement contradicts it."""
+    landmark_cost: float = 1.0
+    """Cost of a landmark that a placement contradicts: a wrong place of a leg has scored 2.4 more than the right one, a
+    place by three landmarks with left for right 3.3 less (research/parts.md)."""
+    landmark_cost_of_two: float = 3.0
+    """That between two parts, whose wrong placements have scored up to 3.9 more."""
     min_opening: float = 0.01
     """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
     max_hole_opening: float = 0.2
@@ -346,9 +346,9 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     return fits + numbers.w_deformation * stiff
 
 
-def part_calibration(two: bool) -> Calibration:
-    """Return the numbers that turn the score of a part, or of one of ``two`` parts, into a probability."""
-    return SCORE.part.calibration_of_two if two else SCORE.part.calibration
+def part_landmark_cost(missed: np.ndarray, two: bool) -> float:
+    """Return the cost of the landmarks that a placement of a part, or of ``two`` parts, contradicts, (l,) bool."""
+    return float(missed.sum()) * (SCORE.part.landmark_cost_of_two if two else SCORE.part.landmark_cost)
 
 
 def excess_deformation(score: float, deformation_energy: float, numbers: Calibration = SCORE.calibration) -> float:

@@ -28,7 +28,7 @@ from kfmaps.matching.partial.scale_search import (
     refine_placement,
     shot_similarity,
 )
-from kfmaps.matching.score import SCORE, PartEvidence, part_calibration, part_score, select_distinct
+from kfmaps.matching.score import SCORE, PartEvidence, part_landmark_cost, part_score, select_distinct
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
@@ -64,7 +64,7 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
         deformation_energy=found.deformation_energy,
         gap=found.gap,
         flipped_area=found.flipped_area,
-        landmark_cost=part_calibration(pair.both_partial).landmark_cost * float(missed.sum()),
+        landmark_cost=part_landmark_cost(missed, pair.both_partial),
     )
     if pair.small_scale is not None:
         evidence = replace(evidence, scale_change=abs(math.log(placement.scale / pair.small_scale)))

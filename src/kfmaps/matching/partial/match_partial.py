@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.place_part import PlacedPart, place_part
 from kfmaps.matching.partial.registration import missed_landmarks, scale_mesh
-from kfmaps.matching.score import SCORE, Calibration, part_calibration, probability, verdict
+from kfmaps.matching.score import SCORE, Calibration, part_landmark_cost, probability, verdict
 from kfmaps.shape import Shape
 
 COMMON = 0.5
@@ -82,8 +82,9 @@ def match_partial(
         progress=None if progress is None else lambda done: progress("parts", done),
         least_scale=least_scale,
     )
-    numbers = part_calibration(which == "both")
-    found, rejected = _place_by_landmarks(place_with, pairs[:, ::-1] if forward else pairs, whole.mesh, numbers)
+    numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
+    marked = pairs[:, ::-1] if forward else pairs
+    found, rejected = _place_by_landmarks(place_with, marked, whole.mesh, numbers, which == "both")
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
@@ -111,13 +112,14 @@ def match_partial(
 
 
 def _place_by_landmarks(
-    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration
+    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration, two: bool
 ) -> tuple[PlacedPart, np.ndarray]:
     """Return a placement, and which of the landmarks ``pairs (l, 2)`` it contradicts, (l,) bool.
 
     A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
     where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept,
-    where each pays for every landmark that it contradicts: a slightly better score is no reason to drop right ones.
+    where each pays for every landmark that it contradicts, as a part on a whole or as one of ``two`` parts: a slightly
+    better score is no reason to drop right ones.
     """
 
     def missed(found: PlacedPart) -> np.ndarray:
@@ -129,7 +131,7 @@ def _place_by_landmarks(
     if len(pairs) and (nowhere or wrong.any()):
         others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
         again = place_with(landmarks=others, progress=None)
-        found = max(again, found, key=lambda one: one.scores[0] - numbers.landmark_cost * missed(one).sum())
+        found = max(again, found, key=lambda one: one.scores[0] - part_landmark_cost(missed(one), two))
     return found, missed(found)
 
 
