@@ -240,7 +240,15 @@ def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better
     rows = rows[true[rows] >= 0][:4]
     config = replace(SMALL, partial=Partial("both", samples=100, whole_samples=300))
     source, target = (prepare(mesh, config, name=name) for (mesh, _), name in zip(pieces, "ab", strict=True))
+    told: list[bool] = []
+
+    def place_by_landmarks(*given: Any) -> Any:
+        told.append(given[-1])
+        return _place_by_landmarks(*given)
+
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial._place_by_landmarks", place_by_landmarks)
     found = match_partial(source, target, config, "both", landmarks=np.stack([true[rows], rows], axis=1))
+    assert told == [True]  # what a contradicted landmark costs is that of two parts
     assert len(found.rejected_landmarks) == 0
     on, places = (true >= 0) & (found.target_to_source >= 0), source.mesh.vertices
     assert np.linalg.norm(places[found.target_to_source[on]] - places[true[on]], axis=1).mean() < 0.08
