@@ -228,7 +228,7 @@ def epoch(data: Data) -> None:
         true = data.truth(a), data.truth(b)
         marks = np.stack([side[FAUST_LINES] for side in true], axis=1)
         lessons.append(learn.training_pair(data.shape(a), data.shape(b), config, landmarks=marks, truth=true))
-    model = learn.Model(config, lessons, ["gamma", "ard", "terms"])
+    model = learn.Model(config, lessons)
     clock = (time.process_time(), time.perf_counter())
     moments: list[tuple[float, float]] = []
 
@@ -252,7 +252,7 @@ STARTS = {
     "Laplacian 1000": {"weights.laplacian": 1000.0},
     "commutativity 10": {"weights.commutativity": 10.0},
     "Laplacian kernel": {"kernel": kfmaps.Laplacian()},
-    "34 mixtures": {"rank": {"signature": 8, "landmark": 3, "shot": 8}},
+    "34 rows": {"rank": {"signature": 8, "landmark": 3, "shot": 8}},
 }
 """What is changed of the settings that learning with landmarks starts from, and of the metric's rows."""
 
@@ -271,7 +271,7 @@ def starts(data: Data, names: list[str]) -> None:
 
     for name in names or STARTS:
         changes = dict(STARTS[name])
-        rank = changes.pop("rank", {"signature": 2, "landmark": 1, "shot": 2})
+        rank = changes.pop("rank", learn.model.RANK)
         config = replace(
             PLAIN,
             refinement=None,
@@ -292,9 +292,7 @@ def starts(data: Data, names: list[str]) -> None:
             marks = np.stack([side[FAUST_LINES] for side in true], axis=1)
             return learn.training_pair(data.shape(a), data.shape(b), config, landmarks=marks, truth=true)
 
-        model = learn.Model(
-            config, [lesson(*p) for p in drawn(range(2), 8, 1)], ["metric", "gamma", "terms"], rank=rank
-        )
+        model = learn.Model(config, [lesson(*p) for p in drawn(range(2), 8, 1)], rank=rank)
         options = learn.TrainingOptions(solver=CG(3e-4, 300), operator_rtol=0.05)
         judged = [lesson(*p) for p in drawn(range(2, 4), 6, 2)]
         errors = [100 * learn.point_error(model, one, options) for one in judged]

@@ -379,7 +379,7 @@ MUTANTS = tuple(
             "cost = squares - functions_t @ images.T",
             "test_formulations -k majorizer",
         ),
-        ("noise = np.asarray(noise) / len(pairs) + _RIDGE", "noise = _RIDGE", "test_learn -k metric_starts"),
+        ("noise = noise / len(pairs) + _RIDGE", "noise = _RIDGE", "test_learn -k metric_starts"),
         ("0.5 * (1 + math.cos(math.pi", "0.5 * (2 + math.cos(math.pi", "test_learn -k rate_falls"),
         ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", f"{FORMULAS} -k losses"),
         ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),

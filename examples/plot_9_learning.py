@@ -31,8 +31,8 @@ def creature(number):
 
 
 # %%
-# Learning wants what a pair offers: its descriptors and the truth. It changes the width γ of the kernel, a weight for
-# each descriptor, and the weights of the energy's terms, so that the expected error of the map falls on two pairs; the
+# Learning wants what a pair offers: its descriptors and the truth. It changes the width γ of the kernel, a metric on
+# the descriptors, and the weights of the energy's terms, so that the expected error of the map falls on two pairs; the
 # third tells when to stop.
 
 pairs = []
@@ -41,7 +41,7 @@ for number in (1, 2, 3):
     truth = (made.truth, range(len(made.truth)))
     pairs.append(kfmaps.learn.training_pair(source, target, config, landmarks=landmarks, truth=truth, samples=60))
 
-model = kfmaps.learn.Model(config, pairs[:2], ["gamma", "ard", "terms"])
+model = kfmaps.learn.Model(config, pairs[:2], rank={"signature": 4, "landmark": 1})
 training = kfmaps.learn.TrainingOptions(epochs=8, patience=6)
 state = kfmaps.learn.learn(model, pairs[:2], pairs[2:], training)
 learned = model.settings()

@@ -11,9 +11,9 @@ from scipy.spatial import KDTree
 from commandline import run
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
-from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
 from kfmaps.io import write_mesh
-from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, kernel_matrix, resolve_kernel
+from kfmaps.kernels.kernels import Gaussian, Linear, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric
 from kfmaps.matching.match import match
 from kfmaps.settings.merge import read_settings, settings_text
@@ -23,8 +23,8 @@ torch = pytest.importorskip("torch")
 
 from kfmaps.cli.commands import learn as learn_command  # noqa: E402
 from kfmaps.fmap.solvers import CG  # noqa: E402
+from kfmaps.learn import PARTS as PARTS_OF_MODEL  # noqa: E402
 from kfmaps.learn import (  # noqa: E402
-    LOSSES,
     Model,
     TrainingOptions,
     functional_map,
@@ -36,7 +36,6 @@ from kfmaps.learn import (  # noqa: E402
     save,
     training_pair,
 )
-from kfmaps.learn import PARTS as PARTS_OF_MODEL  # noqa: E402
 from kfmaps.learn.model import _blocks  # noqa: E402
 
 CONFIG = replace(
@@ -63,11 +62,11 @@ def partners(a, b):
     return np.asarray(KDTree(spheres[0]).query(spheres[1])[1])
 
 
-def taught(shapes, a, b, config=CONFIG, truth=True, landmarks=2):
+def taught(shapes, a, b, config=CONFIG, landmarks=2, samples=40):
     known = partners(a, b)
     marks = np.array([[known[v], v] for v in (5, 120)])[:landmarks]
-    sides = (known, np.arange(len(known))) if truth else None
-    return training_pair(shapes[a], shapes[b], config, landmarks=marks, truth=sides, samples=40)
+    sides = (known, np.arange(len(known)))
+    return training_pair(shapes[a], shapes[b], config, landmarks=marks, truth=sides, samples=samples)
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +74,8 @@ def lessons(shapes):
     return [taught(shapes, 0, 1), taught(shapes, 1, 2), taught(shapes, 2, 0)]
 
 
-PARTS = [("gamma",), ("ard", "terms"), ("metric", "mixture"), ("network", "ard"), ("network", "metric", "terms")]
+ROWS = {"signature": 3, "landmark": 1}
+PARTS = [("gamma",), ("terms",), ("metric", "terms")]
 
 
 def shaken(model, size=0.3):
@@ -83,14 +83,14 @@ def shaken(model, size=0.3):
     with torch.no_grad():
         for p in model.parameters():
             if p.requires_grad:
-                p += torch.from_numpy(size * draw.normal(size=tuple(p.shape)))
+                p += torch.tensor(size * draw.normal(size=tuple(p.shape)))
     return model
 
 
 @pytest.mark.parametrize("parts", PARTS, ids="+".join)
 def test_what_is_learned_is_what_the_settings_say(parts, lessons):
     """The model's kernel matrix is that of the record, whatever the parameters."""
-    model = shaken(Model(CONFIG, lessons, parts, rank=3))
+    model = shaken(Model(CONFIG, lessons, parts, rank=ROWS))
     D_s, D_t = lessons[0].descriptors_s, lessons[0].descriptors_t
     with torch.no_grad():
         found = model.kernel_matrix(model.transform(D_t), model.transform(D_s))
@@ -100,7 +100,7 @@ def test_what_is_learned_is_what_the_settings_say(parts, lessons):
 
 
 def test_it_begins_as_the_settings_it_was_given(lessons):
-    model = Model(CONFIG, lessons[:1], ["gamma", "ard", "terms"])
+    model = Model(CONFIG, lessons[:1], ["gamma", "terms"])
     kernel = resolve_kernel(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.bandwidth_scale)
     D = lessons[0].descriptors_s
     with torch.no_grad():
@@ -114,8 +114,8 @@ def test_the_map_is_that_of_a_match(formulation, shapes):
     base = replace(CONFIG, formulation=formulation)
     known = partners(0, 1)
     marks = np.array([[known[v], v] for v in (5, 120)])
-    each = training_pair(shapes[0], shapes[1], base, landmarks=marks, samples=200)
-    model = shaken(Model(base, [each], ["ard", "terms"]))
+    each = taught(shapes, 0, 1, base, samples=200)
+    model = shaken(Model(base, [each], ["gamma", "terms"]))
     with torch.no_grad():
         C = functional_map(model, each, EXACT)
     config = replace(model.settings(), solver=EXACT, nystrom=NystromConfig(samples=200, rtol=1e-9))
@@ -123,18 +123,17 @@ def test_the_map_is_that_of_a_match(formulation, shapes):
     np.testing.assert_allclose(C, found.functional_map, atol=2e-4)
 
 
-@pytest.mark.parametrize("parts", [("gamma", "ard", "terms"), ("metric", "mixture"), ("network",)], ids="+".join)
-def test_gradient_of_a_loss_is_its_difference(parts, lessons):
-    model = shaken(Model(CONFIG, lessons, parts, rank=3), 0.1)
-    options = replace(QUICK, losses={"supervised": 1.0, "orthogonality": 0.3}, solver=EXACT)
+@pytest.mark.parametrize("parts", [("gamma", "terms"), ("gamma", "metric", "terms")], ids="+".join)
+def test_gradient_of_the_map_is_its_difference(parts, lessons):
+    model = shaken(Model(CONFIG, lessons, parts, rank=ROWS), 0.1)
 
     def loss():
-        return pair_loss(model, lessons[0], options)
+        return ((functional_map(model, lessons[0], EXACT) - 1) ** 2).sum()
 
     loss().backward()
     draw, step = np.random.default_rng(1), 1e-5
     learned = [p for p in model.parameters() if p.requires_grad]
-    direction = [torch.from_numpy(draw.normal(size=tuple(p.shape))) for p in learned]
+    direction = [torch.tensor(draw.normal(size=tuple(p.shape))) for p in learned]
     slope = sum(float((p.grad * d).sum()) for p, d in zip(learned, direction, strict=True))
     values = []
     with torch.no_grad():
@@ -145,15 +144,15 @@ def test_gradient_of_a_loss_is_its_difference(parts, lessons):
     assert (values[0] - values[1]) / (2 * step) == pytest.approx(slope, rel=1e-6)
 
 
-def test_landmarks_share_their_weights(lessons):
-    """Whichever point is the first landmark, what was learned is the same."""
-    kinds = _blocks(CONFIG.descriptors, 2, lessons[0].descriptors_s.shape[1])
-    assert [kind for kind, _ in kinds].count("landmark") == 2
-    assert kinds[-1][1].stop == 10
-    kernel = shaken(Model(CONFIG, lessons, ["ard"])).settings().kernel
-    assert isinstance(kernel, Metric)
-    first, second = (kernel.matrix[block] for kind, block in kinds if kind == "landmark")
-    assert first == second
+def test_a_soft_map_becomes_the_map_to_the_nearest(lessons):
+    """At a temperature of zero its expected error is the error; its gradient says what to change."""
+    model = shaken(Model(CONFIG, lessons, rank=ROWS))
+    soft = pair_loss(model, lessons[0], replace(QUICK, temperature=1e-9))
+    assert float(soft.detach()) == pytest.approx(point_error(model, lessons[0], QUICK), rel=1e-6)
+    pair_loss(model, lessons[0], QUICK).backward()
+    for p in model.parameters():
+        assert p.grad is not None
+        assert 0 < float(p.grad.abs().max()) < float("inf")
 
 
 def test_metric_starts_where_corresponding_points_agree(lessons):
@@ -169,14 +168,15 @@ def test_metric_starts_where_corresponding_points_agree(lessons):
     M = model.get_parameter("metric_signature").detach().numpy()
     assert M.shape == (3, model.blocks[0][1].stop)
     assert len(model.get_parameter("metric_landmark")) == 1
+    kernel = model.settings().kernel
+    assert isinstance(kernel, Metric)
+    whole = np.array(kernel.matrix)
+    first, second = (block for kind, block in model.blocks if kind == "landmark")
+    np.testing.assert_array_equal(whole[3, first], whole[4, second])  # whichever point is the first landmark
     size = np.abs(M).max(axis=0)
     assert size[0] < 0.2 * size[1:].max()
     block = model.blocks[0][1]
-    gaps = [
-        x.descriptors_s[x.truth.points_s][:, block] - x.descriptors_t[x.truth.points_t][:, block]
-        for x in noisy
-        if x.truth is not None
-    ]
+    gaps = [x.descriptors_s[x.points_s][:, block] - x.descriptors_t[x.points_t][:, block] for x in noisy]
     between = M @ np.mean([(g.T @ g).numpy() / len(g) for g in gaps], axis=0) @ M.T
     # with the ridge, the same number for all rows, they are of unit variance and uncorrelated
     ridge = (1 - between[0, 0]) / (M @ M.T)[0, 0]
@@ -215,7 +215,7 @@ def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
     poor = replace(CONFIG, kernel=Gaussian(30.0), weights=Weights(1.0, 1.0, 0.01))
 
     def model():
-        return Model(poor, lessons, ["gamma", "ard", "terms"])
+        return Model(poor, lessons, ["gamma", "metric", "terms"])
 
     whole = learn(model(), lessons[:2], lessons[2:], QUICK)
     assert whole.history[-1].loss < whole.history[0].loss
@@ -239,25 +239,6 @@ def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
     assert len(learning_figure(rest.history).axes) == 2
 
 
-def test_without_landmarks():
-    """A kernel learned from descriptors alone serves the search, whose small fits have other descriptors."""
-    config = replace(
-        Config.single_fit(),
-        basis=BasisConfig(n_eigenfunctions=20),
-        descriptors=DescriptorConfig(n_spectral=10, n_eigenfunctions=30, shot=True, shot_radius=0.3),
-        nystrom=NystromConfig(samples=40),
-        refinement=None,
-        search=Search(candidates=1, n_sign_functions=0),
-    )
-    source, target = (prepare(blob(n, twist), config, name="blob") for n, twist in SIZES[:2])
-    each = training_pair(source, target, config, samples=30)
-    model = Model(config, [each], ["metric"], rank=3)
-    learn(model, [each], [], TrainingOptions({"coupling": 1.0}, epochs=1))
-    found = match(source, target, model.settings())
-    assert found.target_to_source.shape == (SIZES[1][0],)
-    assert isinstance(found.config.kernel, Metric)
-
-
 def test_patience(lessons):
     """A rate that only does harm stops early, and the start is kept."""
     model = Model(CONFIG, lessons, ["terms"])
@@ -270,7 +251,7 @@ def test_patience(lessons):
 
 @pytest.mark.parametrize("rate", [1e3, 1e5])
 def test_a_number_that_is_none_stops_and_keeps_the_best(rate, lessons):
-    model = Model(CONFIG, lessons, ["gamma", "ard", "terms"])
+    model = Model(CONFIG, lessons, ["gamma", "metric", "terms"])
     kept = []
     with pytest.raises(NotConverged, match="the best so far, is kept"):
         learn(model, lessons[:2], lessons[2:], replace(QUICK, rate=rate, epochs=20, patience=20), on_epoch=kept.append)
@@ -279,60 +260,21 @@ def test_a_number_that_is_none_stops_and_keeps_the_best(rate, lessons):
     torch.testing.assert_close(dict(model.named_parameters())["log_terms"].detach(), best["log_terms"])
 
 
-@pytest.mark.parametrize("name", LOSSES)
-def test_every_loss_has_a_gradient(name, lessons):
-    model = Model(CONFIG, lessons, ["gamma", "terms"])
-    value = pair_loss(model, lessons[0], replace(QUICK, losses={name: 1.0}))
-    value.backward()
-    gradient = model.get_parameter("log_terms").grad
-    assert float(value.detach()) > 0
-    assert gradient is not None
-    assert bool(torch.isfinite(gradient).all())
-    assert float(gradient.abs().max()) > 0
-
-
-def test_what_needs_the_truth_says_so(shapes):
-    unknown = taught(shapes, 0, 1, truth=False)
-    model = Model(CONFIG, [unknown], ["gamma"])
-    for name in ("geodesic", "supervised"):
-        with pytest.raises(InvalidInput, match=f"loss {name}"):
-            pair_loss(model, unknown, replace(QUICK, losses={name: 1.0}))
-    with pytest.raises(InvalidInput, match="held-out pairs"):
-        point_error(model, unknown, QUICK)
-    state = learn(model, [unknown], [unknown], replace(QUICK, losses={"orthogonality": 1.0}, epochs=1))
-    assert state.history[-1].loss > 0
-
-
-@pytest.mark.parametrize("kernel", [Linear(), Polynomial(2, 1.0), Laplacian()])
-def test_other_kernels(kernel, shapes):
-    config = replace(CONFIG, kernel=kernel)
-    each = taught(shapes, 0, 1, config)
-    model = Model(config, [each], ["ard", "terms"])
-    state = learn(model, [each], [], replace(QUICK, epochs=1))
-    assert np.isfinite(state.history[-1].loss)
-    assert isinstance(model.settings().kernel, Metric)
-
-
-@pytest.mark.parametrize(
-    ("parts", "kernel"),
-    [([], Gaussian()), (["wits"], Gaussian()), (["ard", "metric"], Gaussian()), (["gamma"], Linear())],
-)
-def test_what_cannot_be_learned(parts, kernel, lessons):
-    with pytest.raises(InvalidInput, match="expected"):
-        Model(replace(CONFIG, kernel=kernel), lessons, parts)
-
-
 def test_pairs_must_be_alike(shapes, lessons):
     with pytest.raises(InvalidInput, match="equally many landmarks"):
-        Model(CONFIG, [*lessons, taught(shapes, 0, 1, landmarks=1)], ["ard"])
+        Model(CONFIG, [*lessons, taught(shapes, 0, 1, landmarks=1)])
     with pytest.raises(InvalidInput, match="truth of blob"):
         training_pair(shapes[0], shapes[1], CONFIG, truth=(np.arange(30), np.arange(31)))
     with pytest.raises(InvalidInput, match="orientation"):
         taught(shapes, 0, 1, replace(CONFIG, weights=Weights(orientation=1.0)))
     with pytest.raises(InvalidInput, match="quadratic in one map"):
         taught(shapes, 0, 1, replace(CONFIG, formulation=Formulation(constraint="orthogonal")))
-    bad: list[dict[str, Any]] = [{"losses": {}}, {"losses": {"wits": 1.0}}, {"rate": 0.0}, {"epochs": 0}]
-    bad += [{"seconds": 0.0}]
+    for parts in ([], ["wits"]):
+        with pytest.raises(InvalidInput, match="what to learn"):
+            Model(CONFIG, lessons, parts)
+    with pytest.raises(InvalidInput, match="kernel to learn"):
+        Model(replace(CONFIG, kernel=Linear()), lessons)
+    bad: list[dict[str, Any]] = [{"rate": 0.0}, {"epochs": 0}, {"seconds": 0.0}]
     for wrong in bad:
         with pytest.raises(InvalidInput, match="expected"):
             TrainingOptions(**wrong)
@@ -403,33 +345,23 @@ def test_command(folder, monkeypatch):
     assert "a new file" in run(*words, "epochs=1").error
 
 
-def test_command_without_truth(folder):
-    for path in (folder / "data" / "corres").iterdir():
-        path.unlink()
-    words = (str(folder / "data"), "-o", str(folder / "kernel.pt"), "--set", "descriptors.n_spectral=10")
-    small = ("--set", "refinement=none", "--set", "basis.n_eigenfunctions=8", "--set", "descriptors.shot=false")
-    small = (*small, "--set", "descriptors.n_eigenfunctions=20", "--training", "pairs=1")
-    ran = run("learn", *words, *small, "--held-out", "none", "--training", "epochs=1", "--learn", "gamma")
-    assert ran.status == 0, ran.stderr
-    learned = read_settings(folder / "kernel.pt", Config.single_fit())
-    assert isinstance(learned.kernel, Gaussian)
-    assert learned.fit_samples == Config.single_fit().fit_samples  # fewer points are for learning alone
-
-
 def test_command_refuses(folder):
-    words = ("learn", str(folder / "data"), "-o", str(folder / "kernel.toml"))
+    marked = ("--truth-landmarks", "6,121")
+    words = ("learn", str(folder / "data"), "-o", str(folder / "kernel.toml"), *marked)
     assert "--shapes" in run(*words, "--shapes", "cat*").error
-    assert "--loss" in run(*words, "--loss", "cycle=much").error
-    assert "one of .toml .pt" in run(*words[:-1], str(folder / "kernel.txt")).error
+    assert "one of .toml .pt" in run(*words[:3], str(folder / "kernel.txt"), *marked).error
     for wrong in ("epochs=many", "epochs=2.5", "haste=1", "pairs=0"):
         assert "--training" in run(*words, "--training", wrong).error
-    assert "--truth-landmarks" in run(*words, "--truth-landmarks", "0,5").error
+    assert "--truth-landmarks" in run(*words[:4]).error
+    alike = ("--shapes", "blob0,blob1", "--held-out", "none", "--truth-landmarks")
+    for lines in ("0,5", "1,200"):
+        assert "--truth-landmarks" in run(*words, *alike, lines).error
+    (folder / "data" / "corres" / "blob0.vts").unlink()
+    assert "truth of blob0: expected a list" in run(*words, *alike, "1").error
 
 
 def test_help_names_what_the_library_has():
-    assert learn_command._PARTS.split(", ") == list(PARTS_OF_MODEL)
-    assert learn_command._LOSSES.split(", ") == list(LOSSES)
+    assert tuple(learn_command._PARTS.split(",")) == PARTS_OF_MODEL
     own = {field.name: field.default for field in fields(TrainingOptions)}
-    assert {name: own[name] for name in learn_command.NUMBERS if name in own} == {
-        name: value for name, value in learn_command.NUMBERS.items() if name not in ("pairs", "held_out_pairs", "rank")
-    }
+    named = {name: value for name, value in learn_command.NUMBERS.items() if name not in ("pairs", "held_out_pairs")}
+    assert {name: own[name] for name in named} == named

@@ -65,11 +65,11 @@ def test_a_kernel_knows_its_landmarks(creature):
     source, target, truth = creature
     marks = np.array([[truth[v], v] for v in (3, 200, 500)])
     with pytest.raises(InvalidInput, match="learned with 6"):
-        search_map(source, target, taught([1.0] * COUNT, 6), landmarks=marks)
-    one = replace(taught([1.0] * COUNT, 3), search=None)
+        search_map(source, target, taught([[1.0] * COUNT], 6), landmarks=marks)
+    one = replace(taught([[1.0] * COUNT], 3), search=None)
     assert n_kernel_landmarks(one.kernel) == 3
     assert fit(source, target, one, landmarks=marks).functional_map.shape == (30, 30)
     with pytest.raises(InvalidInput, match="expected 3 of them, as the kernel was learned with, got 0"):
         fit(source, target, one)  # as many descriptors, of other things
     with pytest.raises(InvalidInput, match="Metric landmarks"):
-        Metric(Gaussian(1.0), (1.0,), -1)
+        Metric(Gaussian(1.0), ((1.0,),), -1)

@@ -73,7 +73,7 @@ def test_the_summary_says_what_part_the_kernel_had() -> None:
     told = _summary(replace(once, fit=fitted))
     assert told["fit"] == "Gaussian(gamma=0.1235), 30 features; converged in 7 steps"
     assert "kernel" not in told
-    learned = _summary(replace(searched, config=Config(kernel=Metric(matrix=(1.0, 2.0)))))
+    learned = _summary(replace(searched, config=Config(kernel=Metric(matrix=((1.0, 2.0),)))))
     assert learned["kernel"] == "a search leaves the learned one out; --set search=none takes it"
 
 

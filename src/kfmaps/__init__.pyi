@@ -50,8 +50,6 @@ from kfmaps.kernels.kernels import Product as Product
 from kfmaps.kernels.kernels import Sum as Sum
 from kfmaps.kernels.kernels import Tanh as Tanh
 from kfmaps.kernels.transformed import Metric as Metric
-from kfmaps.kernels.transformed import Network as Network
-from kfmaps.kernels.transformed import Scaled as Scaled
 from kfmaps.matching.result import Match as Match
 from kfmaps.registration.nonrigid_icp import NonRigid as NonRigid
 from kfmaps.shape import Shape as Shape

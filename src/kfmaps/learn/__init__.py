@@ -1,7 +1,7 @@
 """Kernels, metrics and weights learned from pairs of shapes, with PyTorch (``pip install 'kfmaps[learn]'``).
 
 >>> pairs = [kfmaps.learn.training_pair(source, target, config, truth=truth)]  # doctest: +SKIP
->>> model = kfmaps.learn.Model(config, pairs, ["gamma", "ard", "terms"])  # doctest: +SKIP
+>>> model = kfmaps.learn.Model(config, pairs, ["gamma", "metric", "terms"])  # doctest: +SKIP
 >>> kfmaps.learn.learn(model, pairs, held_out)  # doctest: +SKIP
 >>> kfmaps.match(source, target, model.settings())  # doctest: +SKIP
 """
@@ -12,9 +12,9 @@ from kfmaps._arrays import MissingDependency
 
 try:
     from kfmaps.learn.energy import Minimum, differentiable_minimum, nystrom_features, pair_energy
-    from kfmaps.learn.losses import LOSSES, TrainingOptions, functional_map, pair_loss, point_error
+    from kfmaps.learn.losses import TrainingOptions, functional_map, pair_loss, point_error
     from kfmaps.learn.model import PARTS, Model
-    from kfmaps.learn.pairs import PairTruth, TrainingPair, training_pair
+    from kfmaps.learn.pairs import TrainingPair, training_pair
     from kfmaps.learn.state import Epoch, State, learning_figure, load, save
     from kfmaps.learn.training import learn
 except ModuleNotFoundError as error:
@@ -22,12 +22,10 @@ except ModuleNotFoundError as error:
         raise
 
 __all__ = [
-    "LOSSES",
     "PARTS",
     "Epoch",
     "Minimum",
     "Model",
-    "PairTruth",
     "State",
     "TrainingOptions",
     "TrainingPair",

@@ -1,4 +1,4 @@
-"""Pairs of shapes to learn from: descriptors and bases as tensors, and the truth where it is known."""
+"""Pairs of shapes to learn from: descriptors and bases as tensors, and the truth."""
 
 from __future__ import annotations
 
@@ -25,21 +25,11 @@ _MAX_CORRESPONDENCES = 500  # largest number of true correspondences of a pair a
 
 
 @dataclass(frozen=True, eq=False)
-class PairTruth:
-    """The truth of a pair, at ``m`` of its correspondences."""
-
-    functional_map: torch.Tensor  # (k, k): of the true point map, by least squares
-    functions_t: torch.Tensor  # (m, k): basis of the target at these correspondences
-    distances: torch.Tensor  # (m, n_s): geodesic, in √area, from the source vertex of each to every point of the source
-    points_s: torch.Tensor  # (m,): the point of the source nearest to each of these correspondences
-    points_t: torch.Tensor  # (m,): the same of the target
-
-    __repr__ = short_repr
-
-
-@dataclass(frozen=True, eq=False)
 class TrainingPair:
-    """A pair to learn from, at the points that the fit uses; made by :func:`training_pair`."""
+    """A pair to learn from, at the points that the fit uses; made by :func:`training_pair`.
+
+    The truth is known at ``m`` correspondences.
+    """
 
     name: str
     source: Basis  # of the map's size, as tensors
@@ -48,20 +38,12 @@ class TrainingPair:
     descriptors_t: torch.Tensor  # (n_t, d)
     samples: torch.Tensor  # (q, d): of the Nyström approximation, half from each shape
     n_landmarks: int
-    truth: PairTruth | None
+    functions_t: torch.Tensor  # (m, k): basis of the target at the correspondences
+    distances: torch.Tensor  # (m, n_s): geodesic, in √area, from the source vertex of each to every point of the source
+    points_s: torch.Tensor  # (m,): the point of the source nearest to each of the correspondences
+    points_t: torch.Tensor  # (m,): the same of the target
 
     __repr__ = short_repr
-
-    def swapped(self) -> TrainingPair:
-        """Return the pair with source and target exchanged, without its truth."""
-        return replace(
-            self,
-            source=self.target,
-            target=self.source,
-            descriptors_s=self.descriptors_t,
-            descriptors_t=self.descriptors_s,
-            truth=None,
-        )
 
 
 def training_pair(
@@ -69,8 +51,8 @@ def training_pair(
     target: Shape,
     config: Config,
     *,
+    truth: tuple[ArrayLike, ArrayLike],
     landmarks: ArrayLike | None = None,
-    truth: tuple[ArrayLike, ArrayLike] | None = None,
     samples: int = 150,
     rng: int | np.random.Generator = 0,
 ) -> TrainingPair:
@@ -78,10 +60,10 @@ def training_pair(
 
     Parameters
     ----------
+    truth : pair of arrays (q,), (q,)
+        Corresponding vertices of source and target.
     landmarks : (l, 2) whole numbers, optional
         Pairs "source, target", as for :func:`kfmaps.match`.
-    truth : pair of arrays (q,), (q,), optional
-        Corresponding vertices of source and target.
     samples : int
         Number of Nyström samples; fewer than a match takes, since learning makes thousands of fits.
     rng : seed or Generator
@@ -115,23 +97,21 @@ def training_pair(
         torch.from_numpy(to_numpy(both[1])),
         torch.from_numpy(chosen),
         len(landmarks),
-        None if truth is None else _truth(source, target, (parts[0].vertices, parts[1].vertices), k, truth),
+        *map(torch.from_numpy, _truth(source, target, (parts[0].vertices, parts[1].vertices), k, truth)),
     )
 
 
 def _truth(
     source: Shape, target: Shape, points: tuple[np.ndarray, np.ndarray], k: int, truth: tuple[ArrayLike, ArrayLike]
-) -> PairTruth:
-    """Return the truth of a fit that uses ``points`` of source and target."""
+) -> tuple[np.ndarray, ...]:
+    """Return the last four fields of a pair whose fit uses ``points`` of source and target."""
     true_s, true_t = (np.asarray(side) for side in truth)
     for side, shape in ((true_s, source), (true_t, target)):
         name, n = f"truth of {shape.name}", len(shape.mesh.vertices)
-        check(side, name, shape=true_s.shape, finite=False, remedy="give as many vertices on both")
-        if side.ndim != 1 or len(side) < k or side.min() < 0 or side.max() >= n:
-            got = f"shape {side.shape}" + (f", {side.min()} to {side.max()}" if side.size else "")
-            raise refuse(name, f"at least {k} vertices from 0 to {n - 1}", got, "take the lists of these shapes")
-    functions_s, functions_t = (shape.basis.truncate(k).functions for shape in (source, target))
-    functional_map = np.linalg.lstsq(functions_t[true_t], functions_s[true_s], rcond=None)[0]
+        check(side, name, shape=(len(true_s),), finite=False, remedy="give as many vertices on both")
+        if len(side) == 0 or side.min() < 0 or side.max() >= n:
+            got = f"{side.min()} to {side.max()}" if side.size else "none"
+            raise refuse(name, f"vertices from 0 to {n - 1}", got, "take the lists of these shapes")
     # The same lines for every pair of a collection: distances from them can be kept with the shape.
     lines = np.random.default_rng(0).choice(len(true_s), min(_MAX_CORRESPONDENCES, len(true_s)), replace=False)
     true_s, true_t = (side[np.sort(lines)] for side in (true_s, true_t))
@@ -141,8 +121,7 @@ def _truth(
     )
     distances = _distances(source.mesh, true_s)
     distances = distances if len(points[0]) == distances.shape[1] else distances[:, points[0]]
-    arrays = (functional_map, functions_t[true_t], distances, points_s, points_t)
-    return PairTruth(*(torch.from_numpy(array) for array in arrays))
+    return target.basis.truncate(k).functions[true_t], distances, points_s, points_t
 
 
 _KEPT: WeakKeyDictionary[Mesh, dict[bytes, np.ndarray]] = WeakKeyDictionary()

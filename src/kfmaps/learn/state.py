@@ -19,14 +19,11 @@ from kfmaps.viz.figures import TEXT, style_axes
 
 @dataclass(frozen=True)
 class Epoch:
-    """Losses after an epoch; epoch 0 is before learning.
-
-    ``held_out`` is the geodesic error of raw point maps in √area where the truth is known, else the loss.
-    """
+    """Geodesic errors after an epoch, in √area; epoch 0 is before learning."""
 
     number: int
-    loss: float  # mean over the training pairs
-    held_out: float  # mean over the held-out pairs
+    loss: float  # mean expected error over the training pairs
+    held_out: float  # mean error of raw point maps over the held-out pairs; the loss where there are none
     seconds: float  # since the start
 
 
@@ -87,22 +84,17 @@ def load(path: str | Path) -> tuple[State, str, JsonObject]:
         raise refuse(f"{path}", "a file of kfmaps learn", f"one without {error}", "learn anew") from error
 
 
-def learning_figure(history: Sequence[Epoch], *, truth: bool = True) -> Figure:
-    """Draw the training loss and the held-out error by epoch of a ``history``; a ring marks the epoch that was kept.
-
-    With ``truth`` held-out pairs were judged by the error of their point maps, drawn times 100, else by the loss.
-    """
+def learning_figure(history: Sequence[Epoch]) -> Figure:
+    """Draw the training loss and the held-out error by epoch of a ``history``; a ring marks the epoch that was kept."""
     figure = Figure(figsize=(5.5, 4.2), facecolor="white", layout="constrained")
-    upper, lower = figure.subplots(2, 1, sharex=True)
-    numbers = [epoch.number for epoch in history]
-    factor = 100 if truth else 1
-    kept = min(history, key=lambda epoch: epoch.held_out)
-    upper.plot(numbers, [epoch.loss for epoch in history], color=COLORS[0], marker=".")
-    lower.plot(numbers, [factor * epoch.held_out for epoch in history], color=COLORS[1], marker=".")
-    lower.plot([kept.number], [factor * kept.held_out], "o", color=COLORS[1], markersize=10, fillstyle="none")
-    lower.set_xlabel("epoch", fontsize=10, color=TEXT)
-    lower.xaxis.get_major_locator().set_params(integer=True)
-    for ax, name in ((upper, "training loss"), (lower, "held-out error × 100" if truth else "held-out loss")):
+    numbers, kept = [epoch.number for epoch in history], min(history, key=lambda epoch: epoch.held_out)
+    rows = (("training loss × 100", "loss"), ("held-out error × 100", "held_out"))
+    for ax, color, (name, field) in zip(figure.subplots(2, 1, sharex=True), COLORS, rows, strict=False):
+        ax.plot(numbers, [100 * getattr(epoch, field) for epoch in history], color=color, marker=".")
+        if field == "held_out":
+            ax.plot([kept.number], [100 * kept.held_out], "o", color=color, markersize=10, fillstyle="none")
+            ax.set_xlabel("epoch", fontsize=10, color=TEXT)
+        ax.xaxis.get_major_locator().set_params(integer=True)
         ax.set_ylabel(name, fontsize=10, color=TEXT)
         style_axes(ax)
     return figure

@@ -18,7 +18,7 @@ from kfmaps.learn.pairs import TrainingPair
 from kfmaps.learn.state import Epoch, State
 
 _MATRIX_RATE = 0.3
-"""Part of the rate at which entries of a metric or network change, in units of their root mean square."""
+"""Part of the rate at which entries of a metric change, in units of their root mean square."""
 
 
 def learn(
@@ -91,7 +91,8 @@ class _Run:
         """Return the state before learning, or set model and optimizer to the given ``state``."""
         if state is None:
             now = self.parameters()
-            loss = self.mean_loss(self.pairs, "training pairs", False)
+            with torch.no_grad():
+                loss = self.mean("training pairs", self.pairs, lambda *known: float(pair_loss(*known)))
             first = Epoch(0, loss, self.judge(loss), time.perf_counter() - self.begun)
             return State(now, now, self.optimizer.state_dict(), (first,))
         self.model.load_state_dict(state.parameters)
@@ -110,11 +111,10 @@ class _Run:
     def epoch(self, state: State) -> State:
         """Pass through all pairs once, in an order that depends on the seed and the epoch's number alone."""
         number, total = state.history[-1].number + 1, 0.0
-        rng = np.random.default_rng([self.options.seed, number])
-        order = rng.permutation(len(self.pairs))
+        order = np.random.default_rng([self.options.seed, number]).permutation(len(self.pairs))
         for a in range(0, len(order), self.options.batch):
             self.progress(f"epoch {number}", a / len(order))
-            total += self.step([self.pairs[i] for i in order[a : a + self.options.batch]], state, rng, a / len(order))
+            total += self.step([self.pairs[i] for i in order[a : a + self.options.batch]], state, a / len(order))
         self.progress(f"epoch {number}", 1.0)
         loss = total / len(order)
         try:
@@ -127,7 +127,7 @@ class _Run:
         optimizer = self.optimizer.state_dict()
         return replace(state, parameters=now, best=best, optimizer=optimizer, history=(*state.history, last))
 
-    def step(self, pairs: Sequence[TrainingPair], state: State, rng: np.random.Generator, done: float) -> float:
+    def step(self, pairs: Sequence[TrainingPair], state: State, done: float) -> float:
         """Change the parameters by the mean gradient of ``pairs``; return the sum of their losses."""
         passed = (state.history[-1].number + done) / self.options.epochs
         share = 0.5 * (1 + math.cos(math.pi * min(1.0, passed)))
@@ -137,7 +137,7 @@ class _Run:
         total = 0.0
         for pair in pairs:
             try:
-                loss = pair_loss(self.model, pair, self.options, rng)
+                loss = pair_loss(self.model, pair, self.options)
                 (loss / len(pairs)).backward()
                 total += float(loss.detach())
                 _check_finite(self.model, total)
@@ -147,20 +147,15 @@ class _Run:
         return total
 
     def judge(self, loss: float) -> float:
-        """Return the mean over the held-out pairs; ``loss`` where there are none."""
-        return self.mean_loss(self.held_out, "held-out pairs", True) if self.held_out else loss
+        """Return the mean error of the held-out pairs; ``loss`` where there are none."""
+        return self.mean("held-out pairs", self.held_out, point_error) if self.held_out else loss
 
-    def mean_loss(self, pairs: Sequence[TrainingPair], stage: str, errors: bool) -> float:
-        """Return the mean loss of ``pairs``, or with ``errors`` the mean error of those whose truth is known."""
-        rng = np.random.default_rng([self.options.seed, 0])
+    def mean(self, stage: str, pairs: Sequence[TrainingPair], of: Callable[..., float]) -> float:
+        """Return the mean ``of`` a model, pair and options over ``pairs``."""
         values = []
         for i, pair in enumerate(pairs):
             self.progress(stage, i / len(pairs))
-            if errors and pair.truth is not None:
-                values.append(point_error(self.model, pair, self.options))
-            else:
-                with torch.no_grad():
-                    values.append(float(pair_loss(self.model, pair, self.options, rng)))
+            values.append(of(self.model, pair, self.options))
         self.progress(stage, 1.0)
         return float(np.mean(values))
 

@@ -218,7 +218,7 @@ def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.rando
     """Return the kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
     wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
     if wanted is not None and wanted != given:
-        remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
+        remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks)"
         raise refuse("landmarks", f"{wanted} of them, as the kernel was learned with", str(given), remedy)
     sides = descriptors.source, descriptors.target
     rows = [take(D, farthest_descriptors(D, min(100, D.shape[0]), rng)) for D in sides]

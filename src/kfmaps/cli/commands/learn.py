@@ -30,29 +30,29 @@ if TYPE_CHECKING:
     from kfmaps.learn import State, TrainingPair
 
 
-_PARTS = "gamma, ard, metric, mixture, terms, network"
-_LOSSES = "geodesic, supervised, orthogonality, cycle, commutativity, coupling"
-_WITH_TRUTH = ("gamma,metric,terms", "geodesic")
-_WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")  # default parts and losses
+_PARTS = "gamma,metric,terms"
 
 NUMBERS: dict[str, int | float] = {
     **{"pairs": 32, "held_out_pairs": 6, "epochs": 5, "batch": 2, "rate": 0.1, "patience": 3},
-    **{"temperature": 0.03, "seconds": float("inf"), "rank": 0, "seed": 0},
+    **{"temperature": 0.03, "seconds": float("inf"), "seed": 0},
 }
-"""Defaults of --training: numbers of pairs, rows of the metric (0: automatic), and fields of TrainingOptions."""
+"""Defaults of --training: numbers of pairs, and fields of TrainingOptions."""
 
-_RANK = {"signature": 2, "landmark": 1, "shot": 2}
-_RANK_ALONE = {"signature": 4, "landmark": 1, "shot": 28}
-"""Automatic numbers of rows of the metric with landmarks, and without."""
-_N_SPECTRAL_ALONE = 30  # spectral descriptors without landmarks, as many as the search's own fits have
 _MAX_SAMPLES = 2500  # points of each shape that learning fits maps from; matches take as many as the settings say
+_START = replace(
+    Config.single_fit(),
+    descriptors=DescriptorConfig(shot=True, n_eigenfunctions=200),
+    bandwidth_scale=5.0,
+    weights=Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0),
+    formulation=Formulation(mask="resolvent"),
+)
+"""The settings that learning starts from. SHOT tells what the signature cannot, and few strong descriptors want less
+commutativity and a sharper kernel."""
 
 
 @with_settings
 def learn(
-    data: Annotated[
-        Path, typer.Argument(help="Folder of shapes, with true correspondences if there are any.", metavar="FOLDER")
-    ],
+    data: Annotated[Path, typer.Argument(help="Folder of shapes with true correspondences.", metavar="FOLDER")],
     output: Annotated[
         Path,
         typer.Option(
@@ -61,22 +61,17 @@ def learn(
             help="Settings for kfmaps match --config: .toml, or .pt. The state (.pt) and a picture lie beside it.",
         ),
     ],
+    truth_landmarks: Annotated[
+        str, typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,...")
+    ],
     settings: Chosen,
-    parts: Annotated[
-        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn: {_PARTS}. Default: {_WITH_TRUTH[0]}.")
-    ] = "",
-    losses: Annotated[
-        str, typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {_LOSSES}. Default: {_WITH_TRUTH[1]}.")
-    ] = "",
+    parts: Annotated[str, typer.Option("--learn", metavar="NAMES", help="What to learn.")] = _PARTS,
     shapes: Annotated[str, typer.Option(metavar="PATTERNS", help="Shapes to learn from, as a?,b*.")] = "*",
     held_out: Annotated[
         str,
         typer.Option(
             metavar="PATTERNS", help="Shapes to stop by; default: the last quarter. none: learn from all, to the end."
         ),
-    ] = "",
-    truth_landmarks: Annotated[
-        str, typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,...")
     ] = "",
     identity: Identity = False,
     training: Annotated[
@@ -94,7 +89,7 @@ def learn(
     Needs PyTorch; what it learns does not, unless it is written as .pt. The same command continues a run that was
     stopped.
     """
-    numbers, weights = _numbers(training or []), _losses(losses)
+    numbers = _numbers(training or [])
     check_suffix(output, (".toml", ".pt"), "output")
     from kfmaps import learn as library  # its absence of PyTorch comes before any work
 
@@ -102,8 +97,8 @@ def learn(
     stopped = state_file.is_file() and not force
     for path in {output, state_file, output.with_suffix(".png")}:
         check_output(path, force or stopped)
-    lines = tuple(line - 1 for line in line_numbers(truth_landmarks, "--truth-landmarks")) if truth_landmarks else ()
-    requested = settings.config(_start(bool(lines)))
+    lines = [line - 1 for line in line_numbers(truth_landmarks, "--truth-landmarks")]
+    requested = settings.config(_START)
     config = replace(requested, fit_samples=min(requested.fit_samples or _MAX_SAMPLES, _MAX_SAMPLES))
     with Stages(quiet or json) as stages:
         folder = find_collection(data)
@@ -114,17 +109,13 @@ def learn(
             stages("preparing pairs", i / (len(drawn) + len(judges)))
             every.append(prepare(pair))
         pairs, held_out_pairs = every[: len(drawn)], every[len(drawn) :]
-        known = all(pair.truth for pair in pairs)
-        default_parts, default_losses = _WITH_TRUTH if known else _WITHOUT_TRUTH
-        chosen = tuple(word.strip() for word in (parts or default_parts).split(","))
-        rank = int(numbers["rank"]) or (_RANK if lines else _RANK_ALONE)
-        model = library.Model(config, pairs, chosen, rank=rank, seed=int(numbers["seed"]))
-        own = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs", "rank")}
-        options = library.TrainingOptions(weights or _losses(default_losses), **own)  # pyright: ignore
+        chosen = [word.strip() for word in parts.split(",")]
+        model = library.Model(config, pairs, chosen)
+        own = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs")}
+        options = library.TrainingOptions(**own)  # pyright: ignore
         # What must be asked for again to continue: everything but when to stop.
         request = {
-            "--learn": list(chosen),
-            "--loss": dict(options.losses),
+            "--learn": chosen,
             "pairs": [pair.name for pair in every],
             "--training": {name: numbers[name] for name in numbers if name not in ("epochs", "patience", "seconds")},
             "settings": settings_text(config, comments=False),
@@ -134,8 +125,7 @@ def learn(
         def write(state: State) -> None:
             best = replace(model.settings(state.best), fit_samples=requested.fit_samples)
             library.save(state_file, state, settings_text(best), request)
-            judged = bool(held_out_pairs) and all(pair.truth for pair in held_out_pairs)
-            _write(output, best, state, judged, ", ".join(options.losses))
+            _write(output, best, state)
 
         state = library.learn(model, pairs, held_out_pairs, options, state=state, on_epoch=write, progress=stages)
     first, best = state.history[0], state.best_epoch
@@ -152,12 +142,6 @@ def learn(
     elif not quiet:
         print(f"held-out pairs: {first.held_out:.5f} before, {best.held_out:.5f} after epoch {best.number}")
         print(f"kernel: {model.settings().kernel!r}", f"settings: {output}", f"state: {state_file}", sep="\n")
-
-
-def _losses(text: str) -> dict[str, float]:
-    """Return the names and weights of a text like "geodesic,cycle=0.1"."""
-    words = [part.partition("=") for part in text.split(",") if part.strip()]
-    return {name.strip(): _number(f"--loss {name}", weight, float) if sign else 1.0 for name, sign, weight in words}
 
 
 def _numbers(assignments: list[str]) -> dict[str, int | float]:
@@ -179,18 +163,6 @@ def _number(name: str, text: str, kind: type) -> int | float:
     except ValueError as error:
         expected = "a whole number" if kind is int else "a number"
         raise refuse(name, expected, repr(text), "write it as NAME=NUMBER") from error
-
-
-def _start(landmarks: bool) -> Config:
-    """Return the settings that learning starts from."""
-    # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
-    if not landmarks:
-        return replace(
-            Config(), descriptors=DescriptorConfig(n_spectral=_N_SPECTRAL_ALONE, shot=True, n_eigenfunctions=200)
-        )
-    start = replace(Config.single_fit(), descriptors=DescriptorConfig(shot=True, n_eigenfunctions=200))
-    weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
-    return replace(start, bandwidth_scale=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
 
 
 def _draw(
@@ -219,7 +191,7 @@ def _draw(
 
 
 def _preparation(
-    folder: ShapeFolder, config: Config, lines: tuple[int, ...], identity: bool, seed: int
+    folder: ShapeFolder, config: Config, lines: list[int], identity: bool, seed: int
 ) -> Callable[[Pair], TrainingPair]:
     """Return a function that prepares a pair; each shape is read once."""
     from kfmaps.learn import training_pair
@@ -229,23 +201,23 @@ def _preparation(
         return prepare(read_mesh(folder.shapes[name]), config, name=name)
 
     @cache
-    def truth(name: str) -> np.ndarray | None:
+    def truth(name: str) -> np.ndarray:
         if identity:
             return np.arange(len(shape(name).mesh.vertices))
-        path = folder.truth.get(name)
-        return None if path is None else read_vertex_numbers(path)
+        if name not in folder.truth:
+            raise refuse(f"truth of {name}", "a list of vertices in corres/", "none", "give --shapes, or --identity")
+        return read_vertex_numbers(folder.truth[name])
 
     def prepared(pair: Pair) -> TrainingPair:
-        a, b = truth(pair.source), truth(pair.target)
-        known = None if a is None or b is None else (a, b)
-        counts = [len(side) for side in known or ()]
-        if known and counts[0] != counts[1]:
+        known = truth(pair.source), truth(pair.target)
+        counts = [len(side) for side in known]
+        if counts[0] != counts[1]:
             got = f"{counts[0]} and {counts[1]} lines"
             raise refuse(f"truth of {pair.source} and {pair.target}", "equally many lines", got, "give --shapes")
-        if lines and (not known or max(lines) >= counts[0]):
-            got = f"{counts[0]} lines" if known else "no truth"
+        if max(lines) >= counts[0]:
+            got = f"{counts[0]} lines"
             raise refuse("--truth-landmarks", f"a truth of {max(lines) + 1} lines", got, "choose other lines")
-        landmarks = np.stack([side[list(lines)] for side in known], axis=1) if known and lines else None
+        landmarks = np.stack([side[lines] for side in known], axis=1)
         sides = shape(pair.source), shape(pair.target)
         return training_pair(*sides, config, landmarks=landmarks, truth=known, rng=seed)
 
@@ -264,13 +236,13 @@ def _continued(path: Path, request: JsonObject) -> State:
     return state
 
 
-def _write(output: Path, best: Config, state: State, truth: bool, losses: str) -> None:
+def _write(output: Path, best: Config, state: State) -> None:
     """Write settings and picture."""
     from kfmaps.learn import learning_figure
 
     if output.suffix == ".toml":
-        kept, judge = state.best_epoch, "error of held-out pairs, in √area" if truth else "loss of held-out pairs"
-        head = f"# Learned by {losses}; {judge}: {kept.held_out:.5f}, epoch {kept.number}.\n"
+        kept = state.best_epoch
+        head = f"# Learned from pairs of shapes; error in √area: {kept.held_out:.5f}, epoch {kept.number}.\n"
         write_text(output, head + settings_text(best), force=True)
     with atomic_output(output.with_suffix(".png"), force=True) as temporary:
-        learning_figure(state.history, truth=truth).savefig(temporary, dpi=150)
+        learning_figure(state.history).savefig(temporary, dpi=150)
