@@ -12,11 +12,9 @@ from kfmaps._arrays import MissingDependency
 
 try:
     from kfmaps.learn.energy import Minimum, differentiable_minimum, nystrom_features, pair_energy
-    from kfmaps.learn.losses import TrainingOptions, functional_map, pair_loss, point_error
-    from kfmaps.learn.model import PARTS, Model
+    from kfmaps.learn.model import PARTS, Model, TrainingOptions, functional_map, pair_loss, point_error
     from kfmaps.learn.pairs import TrainingPair, training_pair
-    from kfmaps.learn.state import Epoch, State, learning_figure, load, save
-    from kfmaps.learn.training import learn
+    from kfmaps.learn.training import Epoch, State, learn, learning_figure, load, save
 except ModuleNotFoundError as error:
     if error.name != "torch":
         raise
