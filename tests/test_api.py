@@ -148,7 +148,7 @@ def test_a_notebook_shows_the_page_in_its_cell(found: kfmaps.Match, monkeypatch:
     display.display = shown.append  # pyright: ignore[reportAttributeAccessIssue]
     monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
     monkeypatch.setitem(sys.modules, "IPython.display", display)
-    monkeypatch.setattr("kfmaps.viz.notebook.in_notebook", lambda: True)
+    monkeypatch.setattr("kfmaps.viz.result_pages.in_notebook", lambda: True)
     assert found.view(descriptors=False, names=('a"<b>', "c")) is None
     (html,) = shown
     page = unescape(re.findall(r'srcdoc="([^"]*)"', html)[0])

@@ -11,15 +11,18 @@ from PIL import Image
 from scipy.spatial import KDTree
 
 from chromium import NASTY, Browser, Keys, needs_browser
+from kfmaps.cli.evaluation import Truth
+from kfmaps.config import Config
 from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile
 from kfmaps.io.bake import encode_png
+from kfmaps.kernels.kernels import Gaussian
 from kfmaps.matching.result import Match
-from kfmaps.viz.notebook import cell_html
-from kfmaps.viz.page import ResultPage
-from kfmaps.viz.result_pages import match_page
+from kfmaps.matching.result_groups import MatchFit, MatchScore
+from kfmaps.viz import result_pages
+from kfmaps.viz.result_pages import cell_html, match_page
 
 pytest_plugins = ["chromium"]
 pytestmark = needs_browser
@@ -33,30 +36,25 @@ def pair() -> ExamplePair:
 
 
 @pytest.fixture
-def page(browser: Browser, pair: ExamplePair, tmp_path: Path) -> Browser:
+def page(browser: Browser, pair: ExamplePair, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Browser:
     """The page of the true map, everything switched on, opened from the disk."""
-    rng = np.random.default_rng(0)
-    html = ResultPage(
-        pair.source,
-        pair.target,
+    n_t = len(pair.truth)
+    monkeypatch.setattr(result_pages, "vertex_errors", lambda *_: np.linspace(0, 0.2, n_t)[None])
+    monkeypatch.setattr(result_pages, "signatures", lambda *_: (pair.source.vertices, pair.target.vertices))
+    found = Match(
         pair.truth,
-        functional_map=rng.normal(size=(20, 30)),
-        errors=np.linspace(0, 0.2, len(pair.truth))[None],
-        confidence=np.linspace(0, 1, len(pair.truth))[None],
-        alternatives=[np.roll(pair.truth, 1)],
-        descriptors=(pair.source.vertices, pair.target.vertices),
-        summary={
-            "verdict": "ambiguous",
-            "confidence": 0.25,
-            "scores": [-1.5, -1.625],
-            "residuals": [1, 0.1, 0.01],
-            "times": {"solve": 1.5},
-            "energies": {NASTY: 2},
-            "settings": {"kernel": {"gamma": 500}},
-            "note": NASTY,
-        },
-        names=(NASTY, "b"),
-    ).html()
+        functional_map=np.random.default_rng(0).normal(size=(20, 30)),
+        local_confidence=np.linspace(0, 1, n_t),
+        alternatives=(np.roll(pair.truth, 1),),
+        verdict="ambiguous",
+        confidence=0.25,
+        score=MatchScore(scores=(-1.5, -1.625)),
+        fit=MatchFit(residuals=np.array([1, 0.1, 0.01]), energies={NASTY: 2.0}, kernel=NASTY),
+        seconds={"solve": 1.5},
+        config=Config(kernel=Gaussian(500.0)),
+    )
+    truth = Truth(pair.truth, np.arange(n_t))
+    html = match_page(found, pair.source, pair.target, (NASTY, "b"), truth=truth)
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "page.html").as_uri())
     return browser
@@ -109,7 +107,7 @@ def test_runner_up_has_its_own_matches(page: Browser, pair: ExamplePair) -> None
     page.run(CHOOSE_MAP, "1")
     vertex = page.visible("target", np.arange(len(pair.truth)), 1)[0]
     page.point("target", vertex, click=True)
-    page.until(lambda: page.text("pinned") == f"target {vertex} → source {np.roll(pair.truth, 1)[vertex]}")
+    page.until(lambda: page.text("pinned").startswith(f"target {vertex} → source {np.roll(pair.truth, 1)[vertex]}"))
 
 
 def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
@@ -117,7 +115,7 @@ def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: Exam
     identity = np.arange(len(pair.source.vertices))
     for name, points in (("same", identity), ("other", identity[::-1].copy())):
         page = tmp_path / f"{name}.html"
-        page.write_text(ResultPage(pair.source, pair.source, points).html(), encoding="utf-8")
+        page.write_text(match_page(Match(points), pair.source, pair.source, descriptors=False), encoding="utf-8")
         browser.open(page.as_uri())
         if browser.element("#aligned").is_selected():
             browser.element("#aligned").click()  # both lie alike, so the pictures differ by the map alone
@@ -194,7 +192,7 @@ def test_in_a_cell_of_a_notebook(
     """Both views beside each other, nothing to scroll, light or dark as the notebook is, whatever the system is."""
     features = [{"name": "prefers-color-scheme", "value": "light" if mark == "false" else "dark"}]
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-    html = cell_html(ResultPage(pair.source, pair.target, pair.truth, names=(NASTY, "b")).html(), NASTY)
+    html = cell_html(match_page(Match(pair.truth), pair.source, pair.target, (NASTY, "b"), descriptors=False), NASTY)
     cell = f'<!DOCTYPE html><body data-jp-theme-light="{mark}"><div style="width: {width}px">{html}</div></body>'
     (tmp_path / "notebook.html").write_text(cell, encoding="utf-8")
     browser.driver.get_log("browser")
@@ -255,7 +253,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     half = pair.truth.copy()
     upper = pair.target.vertices[:, 1] > np.median(pair.target.vertices[:, 1])
     half[upper] = half[upper][::-1]
-    html = ResultPage(pair.source, pair.target, pair.truth, alternatives=[half]).html()
+    html = match_page(Match(pair.truth, alternatives=(half,)), pair.source, pair.target, descriptors=False)
     (tmp_path / "half.html").write_text(html, encoding="utf-8")
     page.open((tmp_path / "half.html").as_uri())
     page.mode("difference")
@@ -338,7 +336,7 @@ def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, pair: Ex
     identity = np.arange(len(turned))
     for name, target, points in (("lying", lying, identity), ("back", pair.source, back_for_front)):
         path = tmp_path / f"{name}.html"
-        path.write_text(ResultPage(pair.source, target, points).html(), encoding="utf-8")
+        path.write_text(match_page(Match(points), pair.source, target, descriptors=False), encoding="utf-8")
         browser.open(path.as_uri())
         views = [
             browser.run("return document.getElementById(arguments[0]).getBoundingClientRect().x", f"view-{side}")

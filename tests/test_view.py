@@ -9,6 +9,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.cli.commands.view import view
+from kfmaps.cli.evaluation import Truth
 from kfmaps.config import Config
 from kfmaps.datasets import sphere
 from kfmaps.fmap.confidence import local_confidence
@@ -30,10 +32,10 @@ from kfmaps.io.mapfile import mesh_path
 from kfmaps.io.record import Picture
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
+from kfmaps.viz import result_pages
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
-from kfmaps.viz.page import ResultPage, _rotation_by_map
-from kfmaps.viz.result_pages import _match_summary, match_page, signatures, vertex_errors
+from kfmaps.viz.result_pages import _match_summary, _rotation_by_map, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)
@@ -177,12 +179,17 @@ def test_alignment_undoes_a_rotation_and_never_mirrors() -> None:
 # The page -------------------------------------------------------------------------------------------------
 
 
+def plain_page(source: Mesh, target: Mesh, found: np.ndarray | Match, **more: Any) -> str:
+    found = found if isinstance(found, Match) else Match(found)
+    return match_page(found, source, target, **{"names": ("a", "b"), "descriptors": False, **more})
+
+
 def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
     source, target, points = pair
-    errors = np.linspace(0, 1, 240)
-    errors[5] = np.nan
-    html = ResultPage(source, target, points, errors=errors[None], alternatives=[points[::-1]], names=("a", "b")).html()
-    data = page_data(html)
+    rows = np.delete(np.arange(240), 5)
+    data = page_data(
+        plain_page(source, target, Match(points, alternatives=(points[::-1],)), truth=Truth(points[rows], rows))
+    )
     placed = unpacked(data["source"]["positions"])
     moved = placed - unit_area(source).vertices
     assert np.abs(moved - moved[0]).max() < 1e-4
@@ -190,22 +197,25 @@ def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
     assert [m["label"] for m in data["maps"]] == ["Best map", "Alternative 1"]
     assert np.array_equal(unpacked(data["maps"][0]["points"]), points)
     assert np.array_equal(unpacked(data["maps"][1]["points"]), points[::-1])
-    back = unpacked(data["errors"][0])
-    assert np.isnan(back[5])
-    assert np.nanmax(np.abs(back - errors)) < 1e-4
+    expected = vertex_errors(source, [points, points[::-1]], points[rows], rows)
+    for row, given in zip(data["errors"], expected, strict=True):
+        back = unpacked(row)
+        assert np.isnan(back[5])
+        assert np.nanmax(np.abs(back - given)) < 1e-4
 
 
 def test_page_takes_names_and_settings_as_text(pair: tuple) -> None:
-    html = ResultPage(*pair, names=(NASTY, "b"), summary={NASTY: NASTY}).html()
+    source, target, points = pair
+    html = plain_page(source, target, Match(points, fit=MatchFit(kernel=NASTY)), names=(NASTY, "b"))
     tags = Tags(html)
     assert [a.get("type") for t, a in tags.tags if t == "script"] == ["application/json", None]
     assert tags.text["title"] == [f"{NASTY} → b"]
     assert page_data(html)["source"]["name"] == NASTY
-    assert page_data(html)["summary"] == {NASTY: NASTY}
+    assert page_data(html)["summary"]["kernel"] == NASTY
 
 
 def test_page_allows_its_own_script_and_style_only(pair: tuple) -> None:
-    tags = Tags(ResultPage(*pair).html())
+    tags = Tags(plain_page(*pair))
     policy = next(a["content"] for t, a in tags.tags if a.get("http-equiv") == "Content-Security-Policy")
     assert policy is not None
     rules = {name: rest for name, *rest in (rule.split() for rule in policy.split("; "))}
@@ -218,43 +228,41 @@ def test_page_allows_its_own_script_and_style_only(pair: tuple) -> None:
     assert not any(name.startswith("on") for _, a in tags.tags for name in a)
 
 
-def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
-    mesh = grid_torus(100, 70)
+def test_everything_of_two_7000_vertex_meshes_is_below_3_mb(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, rng = grid_torus(100, 70), np.random.default_rng(0)
     n = len(mesh.vertices)
     assert n == 7000
-    rng = np.random.default_rng(0)
-    points = rng.permutation(n)
-    descriptors = (rng.random((n, 12)), rng.random((n, 12)))
-    html = ResultPage(
+    waves = rng.random((n, 12)), rng.random((n, 12))
+    made = {"signatures": waves, "local_confidence": rng.random(n), "vertex_errors": rng.random((4, n))}
+    for name, values in made.items():
+        monkeypatch.setattr(result_pages, name, lambda *_, values=values: values)
+    others = tuple(rng.permutation(n) for _ in range(3))
+    html = plain_page(
         mesh,
         mesh,
-        points,
-        functional_map=rng.random((200, 200)),
-        errors=rng.random((4, n)),
-        confidence=rng.random((4, n)),
-        alternatives=[rng.permutation(n) for _ in range(3)],
-        descriptors=descriptors,
-    ).html()
+        Match(rng.permutation(n), functional_map=rng.random((200, 200)), alternatives=others),
+        truth=Truth(np.arange(n), np.arange(n)),
+        descriptors=True,
+    )
     assert len(html.encode()) < 3e6
     shown = page_data(html)["descriptors"]
     assert [d["number"] for d in shown] == list(range(12))
-    assert np.abs(unpacked(shown[-1]["target"]) - descriptors[1][:, 11]).max() < 1e-4
+    assert np.abs(unpacked(shown[-1]["target"]) - waves[1][:, 11]).max() < 1e-4
 
 
 @pytest.mark.parametrize(
-    ("change", "name"),
+    ("found", "name"),
     [
-        ({"target_to_source": np.zeros(3, int)}, "map"),
-        ({"target_to_source": np.full(240, 300)}, "map"),
-        ({"alternatives": [np.full(240, -1)]}, "alternative 1"),
-        ({"up": "w"}, "up"),
+        (Match(np.zeros(3, int)), "map"),
+        (Match(np.full(240, 300)), "map"),
+        (Match(np.zeros(240, int), alternatives=(np.full(240, -1),)), "alternative 1"),
     ],
 )
-def test_page_refuses_what_does_not_fit(pair: tuple, change: dict, name: str) -> None:
-    source, target, points = pair
-    arguments = {"source": source, "target": target, "target_to_source": points} | change
+def test_page_refuses_what_does_not_fit(pair: tuple, found: Match, name: str) -> None:
     with pytest.raises(InvalidInput, match=f"^{name}: expected"):
-        ResultPage(**arguments).html()
+        plain_page(pair[0], pair[1], found)
+    with pytest.raises(InvalidInput, match="up: expected"):
+        plain_page(pair[0], pair[1], pair[2], up="w")
 
 
 # Results --------------------------------------------------------------------------------------------------
@@ -327,7 +335,7 @@ def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:
         confidence=0.5,
         seconds={"solve": 2.0},
     )
-    data = page_data(match_page(found, source, target, ("a", "b"), descriptors=False))
+    data = page_data(plain_page(source, target, found))
     assert len(data["maps"]) == 2
     assert data["summary"] == {"verdict": "unchecked", "times": {"solve": 2}, "confidence": 0.5}
     known, other = (unpacked(row) for row in data["confidence"])
@@ -403,10 +411,10 @@ def test_colours_are_mixed_inside_triangles_where_the_map_has_points_there(pair:
     faces = np.arange(len(target.vertices)) % len(source.faces)
     weights = np.tile([0.5, 0.3, 0.2], (len(faces), 1))
     found = Match(target_to_source=source.faces[faces, 0], precise_map=PointMap(faces, weights))
-    data = page_data(ResultPage(source, target, found).html())
+    data = page_data(plain_page(source, target, found))
     expected = np.einsum("j,tjc->tc", [0.5, 0.3, 0.2], position_colors(source)[source.faces[faces]])
     assert np.abs(unpacked(data["maps"][0]["colours"]) - 255 * expected).max() <= 0.5
-    assert "colours" not in page_data(ResultPage(source, target, found.target_to_source).html())["maps"][0]
+    assert "colours" not in page_data(plain_page(source, target, found.target_to_source))["maps"][0]
 
 
 def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarray]) -> None:
@@ -423,6 +431,6 @@ def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarr
         kind, _, data = record["picture"].partition(",")
         assert kind == "data:image/png;base64"
         assert decode_picture(Picture(base64.b64decode(data), "image/png")).shape[0] >= 2048
-    assert page_data(match_page(found, source, target, ("a", "b"), descriptors=False))["textures"] == []
+    assert page_data(plain_page(source, target, found))["textures"] == []
     bare = MeshFile(source)
     assert page_data(match_page(found, bare, target, ("a", "b"), descriptors=False))["textures"] == []

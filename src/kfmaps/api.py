@@ -335,8 +335,7 @@ def view(
     Path or None
         The page: one file that needs no network; ``None`` where it is in a cell.
     """
-    from kfmaps.viz.notebook import in_notebook, show_in_cell
-    from kfmaps.viz.result_pages import match_page, open_page
+    from kfmaps.viz.result_pages import in_notebook, match_page, open_page, show_in_cell
 
     made, shapes = _map_and_shapes(found, source, target)
     drawn, path = MeshFile(shapes[0]), made.source_file.path if source is None else source
@@ -355,7 +354,7 @@ def view(
 
 def picture_html(found: Match, words: str) -> str:
     """Return the picture of a match as an image of HTML, with ``words`` for those who do not see it."""
-    from kfmaps.viz.notebook import figure_html
+    from kfmaps.viz.result_pages import figure_html
 
     return figure_html(render(found), words)
 

@@ -1,9 +1,8 @@
-"""The web page of one result: what it shows, gathered into one self-contained file."""
+"""What the pages of maps, landmarks and reviews show alike: shapes, maps, verdicts and views, as records for JSON."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,10 @@ from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.evaluate import area_distortion
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.io import MeshFile, check_map, projected_uv
-from kfmaps.io.transfer import LOST_GREY, transfer
-from kfmaps.matching.result import Match
-from kfmaps.viz.camera import broad_side, fit_rotation, rotation_between
+from kfmaps.io import projected_uv
+from kfmaps.viz.camera import broad_side, rotation_between
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.document import data_address, document, encode_floats, encode_integers
+from kfmaps.viz.document import encode_floats, encode_integers
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, object]:
@@ -31,19 +28,12 @@ def shape_record(mesh: Mesh, name: str) -> dict[str, object]:
 def source_record(mesh: Mesh, name: str, colors: np.ndarray | None = None) -> dict[str, object]:
     """Return :func:`shape_record` with colours, by default those of positions, and texture coordinates to transfer."""
     colors = position_colors(mesh) if colors is None else colors
-    return {**shape_record(mesh, name), **_painted(colors, projected_uv(mesh.vertices))}
+    return {**shape_record(mesh, name), **painted_record(colors, projected_uv(mesh.vertices))}
 
 
-def _painted(colors: np.ndarray, plane: np.ndarray) -> dict[str, object]:
+def painted_record(colors: np.ndarray, plane: np.ndarray) -> dict[str, object]:
+    """Return colours and texture coordinates of vertices."""
     return {"colours": encode_integers(np.rint(255 * colors).astype(np.uint8)), "plane": encode_floats(plane)}
-
-
-def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, object]:
-    """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
-    if match.precise_map is None:
-        return {}
-    given = (colors, LOST_GREY), (projected_uv(source.vertices), 0.0)
-    return _painted(*(transfer(values, match, source.faces, lost) for values, lost in given))
 
 
 def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, object]:
@@ -84,78 +74,3 @@ def check_up(up: str | None) -> str | None:
     if up not in (None, "x", "y", "z"):
         raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
     return up
-
-
-def _texture_record(shape: MeshFile) -> dict[str, object]:
-    """The texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
-    assert shape.uv is not None
-    assert shape.uv_faces is not None
-    assert shape.picture is not None
-    corners = encode_integers(shape.uv_faces.ravel())
-    picture = data_address(shape.picture.kind, shape.picture.data)
-    return {"uv": encode_floats(shape.uv), "corners": corners, "picture": picture}
-
-
-@dataclass(frozen=True, eq=False)
-class ResultPage:
-    """What the page of a map shows."""
-
-    source: Mesh
-    target: Mesh
-    target_to_source: np.ndarray | Match  # with points inside triangles colours and the pattern are mixed there
-    functional_map: np.ndarray | None = None
-    # (m, n_t): distances on the source in √area, and confidence, a row for the map, or one for each alternative too;
-    # NaN is unknown.
-    errors: np.ndarray | None = None
-    confidence: np.ndarray | None = None
-    alternatives: Sequence[np.ndarray] = ()
-    descriptors: tuple[np.ndarray, np.ndarray] | None = None  # with the same columns on both shapes
-    # Anything that JSON can hold: the page knows ``settings``, ``energies``, ``times`` (mappings) and ``residuals`` (a
-    # list), and lists all else.
-    summary: Mapping[str, object] = field(default_factory=dict)
-    names: tuple[str, str] = ("source", "target")
-    up: str | None = None
-    common: np.ndarray | None = None  # (n_s,): where it is false the source is grey
-    textures: tuple[MeshFile, MeshFile] | None = None  # both shapes with a picture, shown instead of a pattern
-
-    def html(self) -> str:
-        """Return one HTML file that needs no network, no server and nothing beside it."""
-        source, target = self.source, self.target
-        sizes = len(source.vertices), len(target.vertices)
-        points = [check_map(self.target_to_source, *sizes, lost=True)]
-        points += [check_map(m, *sizes, f"alternative {i}") for i, m in enumerate(self.alternatives, 1)]
-        labels = ["Best map"] + [f"Alternative {i}" for i in range(1, len(points))]
-        colors = position_colors(source)
-        if self.common is not None:
-            colors = np.where(self.common[:, None], colors, LOST_GREY)
-        maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
-        if isinstance(self.target_to_source, Match):
-            maps[0] |= _transferred(self.target_to_source, source, colors)
-        known = {"errors": self.errors, "confidence": self.confidence}
-        both = zip(*(part.T for part in self.descriptors), strict=True) if self.descriptors else ()
-        data = {
-            "kind": "result",
-            "up": check_up(self.up) or "auto",
-            "views": views_record(source, target, points[0]),
-            "verdict": verdict_record(self.summary),
-            "source": source_record(source, self.names[0], colors),
-            "target": shape_record(target, self.names[1]),
-            "rotation": _rotation_by_map(source, target, points[0]).ravel(),
-            "maps": maps,
-            **{name: [encode_floats(row) for row in rows] for name, rows in known.items() if rows is not None},
-            "descriptors": [
-                {"number": i, "source": encode_floats(a), "target": encode_floats(b)} for i, (a, b) in enumerate(both)
-            ],
-            "matrix": None if self.functional_map is None else encode_floats(self.functional_map),
-            "textures": [_texture_record(shape) for shape in self.textures or ()],
-            "summary": self.summary,
-        }
-        return document("result.html.j2", title=" → ".join(self.names), data=data)
-
-
-def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
-    known = np.asarray(target_to_source) >= 0
-    if not known.any():
-        return np.eye(3)
-    return fit_rotation(target.vertices[known], source.vertices[np.asarray(target_to_source)[known]])[0]

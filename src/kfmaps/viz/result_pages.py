@@ -1,13 +1,16 @@
-"""Pages straight from a match or from a file of one, and a browser to show them."""
+"""The page of a match, and a browser or a notebook's cell to show it."""
 
 from __future__ import annotations
 
+import io
 import tempfile
 import webbrowser
-from collections.abc import Sequence
+from html import escape
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
+from rich.console import Console
 
 from kfmaps._records import JsonObject
 from kfmaps.cli.evaluation import Truth
@@ -16,16 +19,39 @@ from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.io import MeshFile, check_map
+from kfmaps.io import MeshFile, check_map, projected_uv
 from kfmaps.io.bake import decode_picture
 from kfmaps.io.export import textured
+from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
+from kfmaps.viz.camera import fit_rotation
+from kfmaps.viz.colors import position_colors
+from kfmaps.viz.document import data_address, document, encode_floats, encode_integers
+from kfmaps.viz.figures import make_transparent
 from kfmaps.viz.matches import vertex_errors
-from kfmaps.viz.page import ResultPage
+from kfmaps.viz.page import (
+    check_up,
+    map_record,
+    painted_record,
+    shape_record,
+    source_record,
+    verdict_record,
+    views_record,
+)
 
 _SIGNATURES = 12  # wave kernel signatures shown, and ...
 _EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
 _MOST_TEXELS = 2048  # longer side of the largest picture of a texture in a page.
+_DPI = 72  # resolution of a picture
+_CELL = """<style>
+.kfmaps-cell {{ width: 100%; height: 600px; border: 0; color-scheme: light dark; }}
+{light} {{ color-scheme: light; }}
+{dark} {{ color-scheme: dark; }}
+</style>
+<iframe class="kfmaps-cell" title="{title}" sandbox="allow-scripts allow-downloads" srcdoc="{page}"></iframe>"""
+_LIGHT = ('[data-jp-theme-light="true"]', ".vscode-light", '[theme="light"]')
+_DARK = ('[data-jp-theme-light="false"]', ".vscode-dark", '[theme="dark"]')
+"""How JupyterLab, Visual Studio Code and Colab mark a notebook that is light or dark; elsewhere the system decides."""
 
 
 def _match_summary(match: Match) -> JsonObject:
@@ -57,52 +83,91 @@ def match_page(
     match: Match,
     source: Mesh | MeshFile,
     target: Mesh,
-    names: tuple[str, str],
+    names: tuple[str, str] = ("source", "target"),
     *,
     truth: Truth | None = None,
     descriptors: bool = True,
     up: str | None = None,
 ) -> str:
-    """Return the page of a map with all that the match knows.
+    """Return the page of a map with all that the match knows: one HTML file that needs nothing beside it.
 
     ``source``: a file's picture is shown on both shapes; ``names``: what the page calls the shapes; ``truth``: for the
     errors; ``descriptors``: whether to work out wave kernel signatures to show, which takes an eigensolve of each
     shape; ``up``: the vertical axis; by default a good side is found.
     """
+    up = check_up(up) or "auto"
     file = source if isinstance(source, MeshFile) else MeshFile(source)
-    maps = [match.target_to_source, *match.alternatives]
-    overlap = match.partial.overlap_source
-    return ResultPage(
-        file.mesh,
-        target,
-        match,
-        functional_map=getattr(match, "functional_map", None),
-        errors=None if truth is None else vertex_errors(file.mesh, maps, truth.source, truth.target),
-        confidence=_confidences(file.mesh, target, maps, getattr(match, "local_confidence", None)),
-        alternatives=match.alternatives,
-        descriptors=signatures(file.mesh, target) if descriptors else None,
-        common=None if overlap is None else overlap > 0.5,
-        summary=_match_summary(match),
-        names=names,
-        up=up,
-        textures=_textured(file, match, target),
-    ).html()
+    mesh, matrix = file.mesh, getattr(match, "functional_map", None)
+    sizes = len(mesh.vertices), len(target.vertices)
+    maps = [check_map(match, *sizes, lost=True)]
+    maps += [check_map(other, *sizes, f"alternative {i}") for i, other in enumerate(match.alternatives, 1)]
+    labels = ["Best map", *(f"Alternative {i}" for i in range(1, len(maps)))]
+    colors, overlap = position_colors(mesh), match.partial.overlap_source
+    if overlap is not None:  # what has no counterpart is grey
+        colors = np.where(overlap[:, None] > 0.5, colors, LOST_GREY)
+    records = [map_record(mesh, target, points, label) for points, label in zip(maps, labels, strict=True)]
+    records[0] |= _transferred(match, mesh, colors)
+    known = getattr(match, "local_confidence", None)
+    rows = {"confidence": [local_confidence(mesh, target, points) for points in maps[known is not None :]]}
+    rows["confidence"][:0] = [] if known is None else [np.asarray(known)]
+    if truth is not None:
+        rows["errors"] = list(vertex_errors(mesh, maps, truth.source, truth.target))
+    waves = [values.T for values in signatures(mesh, target)] if descriptors else [[], []]
+    summary = _match_summary(match)
+    data = {
+        "kind": "result",
+        "up": up,
+        "views": views_record(mesh, target, maps[0]),
+        "verdict": verdict_record(summary),
+        "source": source_record(mesh, names[0], colors),
+        "target": shape_record(target, names[1]),
+        "rotation": _rotation_by_map(mesh, target, maps[0]).ravel(),
+        "maps": records,
+        **{name: [encode_floats(row) for row in values] for name, values in rows.items()},
+        "descriptors": [
+            {"number": i, "source": encode_floats(a), "target": encode_floats(b)}
+            for i, (a, b) in enumerate(zip(*waves, strict=True))
+        ],
+        "matrix": None if matrix is None else encode_floats(matrix),
+        "textures": [_texture_record(shape) for shape in _textured(file, match, target)],
+        "summary": summary,
+    }
+    return document("result.html.j2", title=" → ".join(names), data=data)
 
 
-def _textured(source: MeshFile, match: Match, target: Mesh) -> tuple[MeshFile, MeshFile] | None:
-    """Both shapes with the source's picture; ``None`` where it has none."""
+def _textured(source: MeshFile, match: Match, target: Mesh) -> tuple[MeshFile, ...]:
+    """Both shapes with the source's picture; none where it has none."""
     if source.picture is None or len(source.mesh.faces) == 0 or len(target.faces) == 0:
-        return None
+        return ()
     size = _MOST_TEXELS if max(decode_picture(source.picture).shape) > _MOST_TEXELS else None
     own = textured(source, MeshFile(source.mesh), np.arange(len(source.mesh.vertices)), size=size)
     return own, textured(source, MeshFile(target), match, size=size)
 
 
-def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: np.ndarray | None) -> np.ndarray:
-    """Confidence of each map at each target vertex, (m, n_t); ``known`` is that of the first, or ``None``."""
-    sizes = len(source.vertices), len(target.vertices)
-    rows = [local_confidence(source, target, check_map(m, *sizes, lost=True)) for m in maps[known is not None :]]
-    return np.stack(rows if known is None else [np.asarray(known), *rows])
+def _texture_record(shape: MeshFile) -> dict[str, object]:
+    """The texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
+    assert shape.uv is not None
+    assert shape.uv_faces is not None
+    assert shape.picture is not None
+    corners = encode_integers(shape.uv_faces.ravel())
+    picture = data_address(shape.picture.kind, shape.picture.data)
+    return {"uv": encode_floats(shape.uv), "corners": corners, "picture": picture}
+
+
+def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, object]:
+    """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
+    if match.precise_map is None:
+        return {}
+    given = (colors, LOST_GREY), (projected_uv(source.vertices), 0.0)
+    return painted_record(*(transfer(values, match, source.faces, lost) for values, lost in given))
+
+
+def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
+    known = np.asarray(target_to_source) >= 0
+    if not known.any():
+        return np.eye(3)
+    return fit_rotation(target.vertices[known], source.vertices[np.asarray(target_to_source)[known]])[0]
 
 
 def signatures(source: Mesh, target: Mesh) -> tuple[np.ndarray, np.ndarray]:
@@ -125,3 +190,29 @@ def open_page(html: str) -> tuple[Path, bool]:
         return path, webbrowser.open(path.as_uri())
     except webbrowser.Error:
         return path, False
+
+
+def figure_html(figure: Figure, words: str) -> str:
+    """Return a figure as an image that a light and a dark notebook can show; ``words`` say what it is."""
+    buffer = io.BytesIO()
+    make_transparent(figure).savefig(buffer, format="png", dpi=_DPI)
+    return f'<img alt="{escape(words)}" src="{data_address("image/png", buffer.getvalue())}">'
+
+
+def in_notebook() -> bool:
+    """Return whether this runs in a notebook that shows HTML."""
+    return Console().is_jupyter
+
+
+def cell_html(page: str, title: str) -> str:
+    """Return a page of :mod:`kfmaps.viz.page` as the HTML of a cell: a frame, with the layout for little room."""
+    light, dark = (", ".join(f"{mark} .kfmaps-cell" for mark in marks) for marks in (_LIGHT, _DARK))
+    page = page.replace("<body>", '<body class="cell">', 1)
+    return _CELL.format(light=light, dark=dark, title=escape(title), page=escape(page))
+
+
+def show_in_cell(page: str, title: str) -> None:
+    """Show a page in the cell that is being run."""
+    from IPython.display import HTML, display  # pyright: ignore[reportMissingImports]
+
+    display(HTML(cell_html(page, title)))
