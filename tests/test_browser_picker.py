@@ -12,12 +12,12 @@ import pytest
 from chromium import NASTY, Browser, Keys, needs_browser
 from kfmaps import Match
 from kfmaps._arrays import InvalidInput
+from kfmaps._progress import Progress
 from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_landmark_names, read_landmarks
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.picker import Picker, PickerServer
-from kfmaps.viz.runs import Progress
 
 pytest_plugins = ["chromium"]
 pytestmark = needs_browser

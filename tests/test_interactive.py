@@ -12,7 +12,7 @@ from collecting import CONFIG
 from conftest import blob
 from kfmaps.cli.main import main
 from kfmaps.io import write_mesh
-from kfmaps.viz.runs import InteractiveMatcher
+from kfmaps.viz.picker import InteractiveMatcher
 
 MARKS = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
 

@@ -22,12 +22,12 @@ from tornado.http1connection import HTTP1Connection
 
 from commandline import run
 from kfmaps._arrays import InvalidInput
+from kfmaps._progress import Progress
 from kfmaps.datasets import sphere
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
 from kfmaps.matching.result import Match
-from kfmaps.viz.picker import Picker, PickerServer, check_pairs
-from kfmaps.viz.runs import Progress, Runs
+from kfmaps.viz.picker import Picker, PickerServer, Runs, check_pairs
 from kfmaps.viz.server import _LOOPBACK, LocalServer, page_reply
 from serving import Client
 

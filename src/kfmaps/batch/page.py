@@ -6,7 +6,6 @@ import io
 import json
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -64,16 +63,6 @@ _COLUMNS: tuple[_Column, ...] = (
 """Title, value to sort by and text of the columns of all pairs. A column of which nothing is known is left out."""
 
 
-@dataclass(frozen=True)
-class AgreementSection:
-    """What making the maps agree adds to the summary page."""
-
-    changed: Mapping[str, str] = field(default_factory=dict)  # pictures of replaced maps, before and after, by caption
-    doubted: Sequence[str] = ()  # pairs that others contradict and for which nothing better is known, a line each
-    specimens: Sequence[Mapping[str, str]] = ()  # charts and pictures of the shapes
-    shapes: Mapping[str, Sequence[Any]] | None = None  # titles and rows of their table
-
-
 def write_page(
     plan: Plan, results: Sequence[Result], name: str, worst: int, consistent: ConsistentResult | None = None
 ) -> Path:
@@ -86,11 +75,11 @@ def write_page(
     ordered = worst_first(results)
     shown = ordered[:worst] + [r for r in results if r.changed][: 2 * worst]
     pages = _write_pages(plan.folder, tasks, shown)
-    agreement = AgreementSection()
+    agreement: dict[str, Any] = {}
     if consistent is not None:
         replaced = [r for r in consistent.results if r.changed and r.pair in consistent.before]
         changed = _pictures(tasks, replaced, worst, _error_limit(consistent.results), consistent.before)
-        agreement = AgreementSection(changed, consistent.doubted, **_specimens(plan, consistent.shapes))
+        agreement = {"changed": changed, "doubted": consistent.doubted, **_specimens(plan, consistent.shapes)}
     page = summary_page(
         name,
         results,
@@ -111,12 +100,14 @@ def summary_page(
     pictures: Mapping[str, str],
     pairs: int,
     pages: Mapping[Pair, str] | None = None,
-    agreement: AgreementSection | None = None,
+    agreement: Mapping[str, Any] | None = None,
 ) -> str:
     """Return the summary page.
 
     ``name``: title, any text; ``settings``: as JSON holds them; ``pictures``: addresses by caption, of the worst
-    pairs; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary.
+    pairs; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary;
+    ``agreement``: what making the maps agree adds: pictures of maps that have ``changed`` by caption, a line for each
+    pair that is ``doubted``, ``specimens``, charts and pictures of the shapes, and ``shapes``, their table.
     """
     numbers, ordered = summarize(results), worst_first(results)
     folder = files("kfmaps.batch").joinpath("templates")
@@ -136,7 +127,7 @@ def summary_page(
         numbers=numbers,
         unit=UNIT,
         bad=BAD,
-        left=max(pairs - numbers.done - numbers.failed, 0),
+        left=max(pairs - numbers["done"] - numbers["failed"], 0),
         curve=_curve(results),
         results=results,
         ordered=ordered,
@@ -145,7 +136,7 @@ def summary_page(
         largest=max((r.error_mean or 0.0 for r in ordered), default=0.0),
         pages=pages or {},
         pictures=pictures,
-        agreement=agreement or AgreementSection(),
+        agreement={"changed": {}, "doubted": (), "specimens": (), "shapes": None, **(agreement or {})},
         settings=json.dumps(settings, indent=2),
     )
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from kfmaps._records import JsonObject
 from kfmaps.batch.layout import Pair
 from kfmaps.cli.words import UNIT, percent, probability_text
 from kfmaps.io.atomic import csv_text, write_text
@@ -128,51 +130,35 @@ def write_csv(path: Path, results: Iterable[Result]) -> None:
     write_rows(path, [columns, *([row.get(name, "") for name in columns] for row in rows)])
 
 
-@dataclass(frozen=True)
-class Summary:
-    """Numbers over all pairs; errors in units of √area, ``None`` where no truth is known."""
-
-    done: int
-    failed: int
-    evaluated: int  # pairs whose truth is known
-    error_mean: float | None  # mean over the pairs of each pair's mean error
-    error_median: float | None
-    error_worst: float | None
-    bad: int  # pairs with a mean error above BAD
-    flipped: int  # pairs that are nearer to the mirrored truth than to the truth
-    seconds_mean: float | None  # of the pairs' matching, without the shapes' preparation
-    seconds_total: float | None
-    verdicts: dict[str, int]
-    mirrored: int = 0  # pairs whose mirrored truth is known
-    agreed: int = 0  # pairs that were set beside the others of the collection
-    changed: int = 0  # those of them whose map was replaced
-    parts: int = 0  # pairs of which one shape was taken for a part of the other
-
-
-def summarize(results: Sequence[Result]) -> Summary:
-    """Return the numbers of a run from its results."""
+def summarize(results: Sequence[Result]) -> JsonObject:
+    """Return the numbers of a run from its results; errors in units of √area, ``None`` where no truth is known."""
     done = [r for r in results if r.status == "done"]
     errors = np.array([r.error_mean for r in done if r.error_mean is not None])
-    seconds = [r.seconds["total"] for r in done if "total" in r.seconds]
-    known, timed = len(errors) > 0, len(seconds) > 0
+    seconds = np.array([r.seconds["total"] for r in done if "total" in r.seconds])
     mirrored = [(r.error_mean or 0.0, r.mirrored_mean) for r in done if r.mirrored_mean is not None]
-    return Summary(
-        done=len(done),
-        failed=len(results) - len(done),
-        evaluated=len(errors),
-        error_mean=float(errors.mean()) if known else None,
-        error_median=float(np.median(errors)) if known else None,
-        error_worst=float(errors.max()) if known else None,
-        bad=int((errors > BAD).sum()),
-        flipped=sum(swapped < error for error, swapped in mirrored),
-        seconds_mean=float(np.mean(seconds)) if timed else None,
-        seconds_total=float(np.sum(seconds)) if timed else None,
-        verdicts=dict(sorted(Counter(r.verdict for r in done).items())),
-        mirrored=len(mirrored),
-        agreed=sum(r.agreement is not None for r in done),
-        changed=sum(bool(r.changed) for r in done),
-        parts=sum(r.common_s is not None for r in done),
-    )
+
+    def known(values: np.ndarray, of: Callable[[np.ndarray], Any]) -> float | None:
+        return float(of(values)) if len(values) else None
+
+    return {
+        "done": len(done),
+        "failed": len(results) - len(done),
+        "evaluated": len(errors),  # pairs whose truth is known
+        "error_mean": known(errors, np.mean),  # of each pair's mean error
+        "error_median": known(errors, np.median),
+        "error_worst": known(errors, np.max),
+        "bad": int((errors > BAD).sum()),
+        "flipped": sum(
+            swapped < error for error, swapped in mirrored
+        ),  # nearer to the mirrored truth than to the truth
+        "seconds_mean": known(seconds, np.mean),  # of the pairs' matching, without the shapes' preparation
+        "seconds_total": known(seconds, np.sum),
+        "verdicts": dict(sorted(Counter(r.verdict for r in done).items())),
+        "mirrored": len(mirrored),  # pairs whose mirrored truth is known
+        "agreed": sum(r.agreement is not None for r in done),  # set beside the others of the collection
+        "changed": sum(bool(r.changed) for r in done),  # those of them whose map was replaced
+        "parts": sum(r.common_s is not None for r in done),  # one shape was taken for a part of the other
+    }
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -98,7 +97,7 @@ def batch(
         report.say(line)
     if json:
         left = len(plan.tasks) - len(outcome.results)
-        print_json({**asdict(summarize(outcome.results)), "left": left, "output": outcome.files})
+        print_json({**summarize(outcome.results), "left": left, "output": outcome.files})
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)
     if any(result.status == "failed" for result in outcome.results):
@@ -131,14 +130,13 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
     if outcome.interrupted:
         left = len(plan.tasks) - len(outcome.results)
         lines.append(f"interrupted with {plural(left, 'pair')} left; the same command goes on")
-    if numbers.failed:
-        lines.append(f"{plural(numbers.failed, 'pair')} failed; the summary says why, and --retry-failed tries again")
-    if numbers.error_mean is not None:
-        lines.append(
-            f"mean error {percent(numbers.error_mean)} {UNIT} over {plural(numbers.evaluated, 'pair')}"
-            f" (median pair {percent(numbers.error_median)}, worst {percent(numbers.error_worst)})"
-        )
-    verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
+    if failed := numbers["failed"]:
+        lines.append(f"{plural(failed, 'pair')} failed; the summary says why, and --retry-failed tries again")
+    if numbers["error_mean"] is not None:
+        mean, median, worst = (percent(numbers[f"error_{name}"]) for name in ("mean", "median", "worst"))
+        pairs = plural(numbers["evaluated"], "pair")
+        lines.append(f"mean error {mean} {UNIT} over {pairs} (median pair {median}, worst {worst})")
+    verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers["verdicts"].items() if verdict)
     lines += [f"verdicts: {verdicts}"] if verdicts else []
     lines += [] if outcome.consistent is None else _describe_consistent(outcome.consistent)
     return lines + [str(path) for path in outcome.files]

@@ -49,9 +49,8 @@ from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.landmark_review import ReviewServer
 from kfmaps.viz.page import check_up
-from kfmaps.viz.picker import Picker, PickerServer, check_pairs
+from kfmaps.viz.picker import InteractiveMatcher, Picker, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
-from kfmaps.viz.runs import InteractiveMatcher
 
 _Port = Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)]
 _OpenPage = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")]

@@ -135,8 +135,8 @@ def render_curves(
     curves = []
     for folder, name in zip(folders, names, strict=True):
         results = _results(folder)
-        mean = summarize(results).error_mean
-        curve = error_curve_of(results, f"{name}, mean {percent(mean or 0)} %")
+        mean = percent(summarize(results)["error_mean"] or 0)
+        curve = error_curve_of(results, f"{name}, mean {mean} %")
         if curve is None:
             raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
         curves.append(curve)
