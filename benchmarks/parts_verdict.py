@@ -30,7 +30,7 @@ from scipy.special import expit
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.cli.partial_truth import read_part_truth
+from kfmaps.cli.evaluation import read_part_truth
 from kfmaps.config import Partial
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions

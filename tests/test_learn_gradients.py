@@ -57,7 +57,7 @@ def ground(source, target):
 def minimum(parts, weights, bases):
     ones, laplacian = ground(*bases)
     terms = {**parts, "ones": ones, "laplacian": laplacian}
-    return differentiable_minimum(Energy(terms, {**weights, "ones": 0.1, "laplacian": 0.5}), EXACT).C
+    return differentiable_minimum(Energy(terms, {**weights, "ones": 0.1, "laplacian": 0.5}), EXACT)
 
 
 TERMS = {
@@ -127,9 +127,8 @@ def test_features_of_samples(name, case):
 
     def C(F, G, S, *numbers):
         W = nystrom_features(build(*numbers), F, G, S)
-        return differentiable_minimum(
-            pair_energy(source, target, *W, {"descriptors": 2.0, "commutativity": 1.0, "laplacian": 0.5}), EXACT
-        ).C
+        weights = {"descriptors": 2.0, "commutativity": 1.0, "laplacian": 0.5}
+        return differentiable_minimum(pair_energy(source, target, *W, weights), EXACT)
 
     assert right(C, F, G, leaf(F.detach()[:4].numpy() + 0.1), *[leaf(number) for number in numbers])
 
@@ -147,8 +146,7 @@ def test_the_map_is_that_of_the_other_solver(case):
     found = differentiable_minimum(energy, EXACT)
     with torch.no_grad():
         wanted = solve(energy.apply, energy.rhs(), Direct()).value
-    np.testing.assert_allclose(found.C.detach(), wanted, rtol=1e-9)
-    assert found.solution.status == "converged"
+    np.testing.assert_allclose(found.detach(), wanted, rtol=1e-9)
 
 
 def test_memory_does_not_grow_with_the_iterations(case):
@@ -159,13 +157,13 @@ def test_memory_does_not_grow_with_the_iterations(case):
         kept = []
         with torch.autograd.graph.saved_tensors_hooks(lambda t: kept.append(t.numel()) or t, lambda t: t):
             energy = pair_energy(source, target, F, G, {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5})
-            found = differentiable_minimum(energy, solver)
-        return sum(kept), found.solution.steps
+            differentiable_minimum(energy, solver)
+        return sum(kept)
 
-    (few, short), (many, long) = held(CG(max_iter=1)), held(EXACT)
-    assert short == 1
-    assert long > 3
-    assert few == many
+    energy = pair_energy(source, target, F, G, {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5})
+    with torch.no_grad():
+        assert solve(energy.apply, energy.rhs(), EXACT).steps > 3
+    assert held(CG(max_iter=1)) == held(EXACT)
 
 
 def test_compression_hardly_changes_the_gradient(case):
@@ -174,7 +172,7 @@ def test_compression_hardly_changes_the_gradient(case):
     spread = torch.cat([F, G[:, :1].mean() + 1e-4 * F], dim=1), torch.cat([G, G[:, :1].mean() + 1e-4 * G], dim=1)
     gradients = []
     for rtol in (0.0, 1e-6):
-        C = differentiable_minimum(pair_energy(source, target, *spread, weights, rtol), EXACT).C
+        C = differentiable_minimum(pair_energy(source, target, *spread, weights, rtol), EXACT)
         gradients.append(torch.autograd.grad((C**2).sum(), F, retain_graph=True)[0])
     np.testing.assert_allclose(*gradients, rtol=1e-3, atol=1e-5)
 

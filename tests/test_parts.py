@@ -10,7 +10,7 @@ import pytest
 from conftest import blob
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.cli.partial_truth import PartTruth, _true_overlap, part_accuracy
+from kfmaps.cli.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.evaluate import precise_errors

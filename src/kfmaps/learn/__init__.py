@@ -11,7 +11,7 @@ from typing import Any
 from kfmaps._arrays import MissingDependency
 
 try:
-    from kfmaps.learn.energy import Minimum, differentiable_minimum, nystrom_features, pair_energy
+    from kfmaps.learn.energy import differentiable_minimum, nystrom_features, pair_energy
     from kfmaps.learn.model import PARTS, Model, TrainingOptions, functional_map, pair_loss, point_error
     from kfmaps.learn.pairs import TrainingPair, training_pair
     from kfmaps.learn.training import Epoch, State, learn, learning_figure, load, save
@@ -22,7 +22,6 @@ except ModuleNotFoundError as error:
 __all__ = [
     "PARTS",
     "Epoch",
-    "Minimum",
     "Model",
     "State",
     "TrainingOptions",

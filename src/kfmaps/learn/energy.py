@@ -9,14 +9,12 @@ gives ``Λ``. The iterations are not recorded, so memory does not grow with thei
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import torch
 
 from kfmaps._arrays import NotConverged
-from kfmaps._records import short_repr
 from kfmaps.config import Formulation
 from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.multiplication_operators import (
@@ -26,7 +24,7 @@ from kfmaps.fmap.multiplication_operators import (
     unpack_operators,
 )
 from kfmaps.fmap.preconditioners import sylvester
-from kfmaps.fmap.solvers import CG, Operator, Solution, solve
+from kfmaps.fmap.solvers import CG, Operator, solve
 from kfmaps.fmap.terms import Term, descriptor_term, laplacian_term, operator_term
 from kfmaps.geometry.basis import Basis
 
@@ -103,16 +101,6 @@ def _operators(
     return unpack_operators(packed[0]), unpack_operators(packed[1])
 
 
-@dataclass(frozen=True, eq=False)
-class Minimum:
-    """The minimiser of an energy: the map ``C (k_t, k_s)``, part of PyTorch's graph, and the solver's report."""
-
-    C: torch.Tensor
-    solution: Solution
-
-    __repr__ = short_repr
-
-
 class _Implicit(torch.autograd.Function):
     """``residual ↦ C``, for ``residual = B − A(C)`` of value zero, whose derivative is ``A⁻¹``."""
 
@@ -130,16 +118,15 @@ class _Implicit(torch.autograd.Function):
         return ctx.inverse(gradients[0]), None, None
 
 
-def differentiable_minimum(energy: Energy, solver: CG) -> Minimum:
-    """Minimise an energy, with derivatives in all tensors that its terms and weights were made from.
+def differentiable_minimum(energy: Energy, solver: CG) -> torch.Tensor:
+    """Return the map ``C (k_t, k_s)`` of least energy, with derivatives in the tensors of its terms and weights.
 
     Parameters
     ----------
     energy : Energy
         Positive definite, of terms made from PyTorch tensors; weights may be tensors too.
     solver : CG
-        For the map and for its derivative. The gradient's relative error is of the order of ``rtol``. Running out of
-        steps shows in ``solution.status``.
+        For the map and for its derivative. The gradient's relative error is of the order of ``rtol``.
 
     Raises
     ------
@@ -148,24 +135,25 @@ def differentiable_minimum(energy: Energy, solver: CG) -> Minimum:
     """
     with torch.no_grad():
         precondition = sylvester(energy)
-        solution = _check(solve(energy.apply, energy.rhs(), solver, None, precondition), "map")
+        C = _solved(energy, energy.rhs(), solver, precondition, "map")
 
     def inverse(gradient: torch.Tensor) -> torch.Tensor:
         with torch.no_grad():
-            return _check(solve(energy.apply, gradient, solver, None, precondition), "derivative").value
+            return _solved(energy, gradient, solver, precondition, "derivative")
 
-    C = solution.value.detach()
-    if torch.is_grad_enabled():
-        implicit: Any = _Implicit.apply
-        C = implicit(energy.rhs() - energy.apply(C), C, inverse)
-    return Minimum(C, solution)
+    if not torch.is_grad_enabled():
+        return C
+    implicit: Any = _Implicit.apply
+    return implicit(energy.rhs() - energy.apply(C), C, inverse)
 
 
-def _check(solution: Solution, name: str) -> Solution:
+def _solved(energy: Energy, right: torch.Tensor, solver: CG, precondition: Operator, name: str) -> torch.Tensor:
+    """Return the solution of ``A(C) = right``."""
+    solution = solve(energy.apply, right, solver, None, precondition)
     if solution.status == "breakdown" and not np.isclose(solution.residuals[-1], 0.0):
         raise NotConverged(
             f"{name}: expected a positive definite energy of finite numbers, got a breakdown of conjugate gradients "
             f"after {solution.steps} steps (residual {solution.residuals[-1]:.3g}). Lower the learning rate, or "
             "keep the weight of the Laplacian term above zero."
         )
-    return solution
+    return solution.value

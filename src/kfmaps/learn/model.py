@@ -196,7 +196,7 @@ def functional_map(model: Model, pair: TrainingPair, solver: CG, operator_rtol: 
     W_s, W_t = nystrom_features(model.kernel_matrix, *transformed)
     formulation = model.config.formulation
     energy = pair_energy(pair.source, pair.target, W_s, W_t, model.weights(), operator_rtol, formulation)
-    return differentiable_minimum(energy, solver).C
+    return differentiable_minimum(energy, solver)
 
 
 def pair_loss(model: Model, pair: TrainingPair, options: TrainingOptions) -> torch.Tensor:

@@ -9,9 +9,8 @@ import typer
 from rich.table import Table
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.cli.evaluation import Accuracy, assess, known_truth, write_curve
+from kfmaps.cli.evaluation import Accuracy, assess, known_truth, part_accuracy, read_part_truth, write_curve
 from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TruthLists
-from kfmaps.cli.partial_truth import part_accuracy, read_part_truth
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.geometry.mesh import Mesh
