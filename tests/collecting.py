@@ -89,7 +89,7 @@ def touch(path: Path, text: str = "") -> Path:
 def done(plan: Plan) -> list[Result]:
     """The plan's work, in this process."""
     prepared = {t.entry: prepare_shape(t) for task in plan.todo for t in (task.source, task.target)}
-    return [match_pair(t, prepared[t.source.entry], prepared[t.target.entry]) for t in plan.todo]
+    return [match_pair((t, prepared[t.source.entry], prepared[t.target.entry])) for t in plan.todo]
 
 
 @dataclass(frozen=True)

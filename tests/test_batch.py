@@ -226,7 +226,7 @@ def test_a_defect_is_recorded_with_its_type(folder: Path, tmp_path: Path, monkey
         raise ZeroDivisionError("oh")
 
     monkeypatch.setattr("kfmaps.batch.work.match", broken)
-    result = match_pair(plan.todo[0], *prepared)
+    result = match_pair((plan.todo[0], prepared[0], prepared[1]))
     assert (result.status, result.reason) == ("failed", "ZeroDivisionError: oh")
     assert not map_path(tmp_path, plan.todo[0].pair.key).exists()
 
@@ -258,7 +258,7 @@ def test_a_shape_that_changes_under_way_is_refused(tmp_path: Path) -> None:
     task = plan.todo[0].source
     write_mesh(task.path, blob(210), force=True)
     assert "changed" in prepare_shape(task).reason
-    assert load_record(Path(task.entry), Shape) is None
+    assert load_record(task.entry, Shape) is None
 
 
 def test_attempts_are_counted_across_kills(folder: Path, tmp_path: Path) -> None:
@@ -266,10 +266,10 @@ def test_attempts_are_counted_across_kills(folder: Path, tmp_path: Path) -> None
     plan = plan_of(folder, tmp_path)
     task = plan.todo[0]
     touch(tmp_path / "attempts" / f"{task.pair.key}.1", "{}")
-    result = match_pair(task, prepare_shape(task.source), prepare_shape(task.target))
+    result = match_pair((task, prepare_shape(task.source), prepare_shape(task.target)))
     assert (result.status, result.attempts) == ("done", 2)
     assert attempts(tmp_path, task.pair.key) == 2
-    assert attempts(tmp_path, Path(task.source.entry).stem) == 1
+    assert attempts(tmp_path, task.source.key) == 1
 
 
 def test_mirrored_truth(tmp_path: Path) -> None:

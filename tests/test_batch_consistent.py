@@ -88,7 +88,7 @@ def test_the_wrong_map_is_replaced_and_no_other(run: tuple[Plan, list[Result]]) 
     plan, results = run
     before = {p: p.read_bytes() for p in (plan.folder / "maps").iterdir()}
     found = make_consistent(plan, results, Alone())
-    assert found.replaced == 1
+    assert len(found.before) == 1
     assert not found.doubted
     assert not found.notes
     (changed,) = [r for r in found.results if r.changed]
@@ -131,7 +131,7 @@ def test_what_is_finished_is_found_again(run: tuple[Plan, list[Result]]) -> None
     # A damaged file is made again.
     damaged = plan.folder / CONSISTENT / "evidence" / "b0-b1.npz"
     damaged.write_bytes(damaged.read_bytes()[:100])
-    assert make_consistent(plan, results, Alone()).replaced == 1
+    assert len(make_consistent(plan, results, Alone()).before) == 1
 
 
 def test_specimens_are_told_of(run: tuple[Plan, list[Result]]) -> None:
@@ -160,7 +160,7 @@ def test_pairs_that_match_again_are_not_replaced_any_more(run: tuple[Plan, list[
     right = load_map(map_path(plan.folder / CONSISTENT, "b1-b3"))
     save_map(path, replace(right, alternatives=()), force=True)
     try:
-        assert make_consistent(plan, results, Alone()).replaced == 0
+        assert len(make_consistent(plan, results, Alone()).before) == 0
         assert not map_path(plan.folder / CONSISTENT, "b1-b3").exists()
         assert read_result(result_path(plan.folder / CONSISTENT, "b1-b3")) is None
     finally:
@@ -219,12 +219,12 @@ def test_maps_of_parts_take_no_part(run: tuple[Plan, list[Result]]) -> None:
         (note,) = agreed.notes
         assert note.startswith("b0 → b4: the map of a part stays as it is")
         assert "20 of 200 vertices" in note
-        assert agreed.replaced == 1
+        assert len(agreed.before) == 1
         assert {(r.source, r.target) for r in agreed.results if r.agreement is None} == {("b0", "b4")}
         alone = [r for r in results if (r.source, r.target) == ("b0", "b4")]
         only = make_consistent(plan, alone, Alone())
         assert only.results == tuple(alone)
-        assert (only.replaced, len(only.notes)) == (0, 1)
+        assert (len(only.before), len(only.notes)) == (0, 1)
     finally:
         path.write_bytes(whole)
 

@@ -56,7 +56,7 @@ def under_way(plan: Plan) -> tuple[int, str] | None:
 
 
 def shape_attempts(plan: Plan) -> list[int]:
-    entries = {Path(t.entry).stem for task in plan.tasks for t in (task.source, task.target)}
+    entries = {t.key for task in plan.tasks for t in (task.source, task.target)}
     return [attempts(plan.folder, entry) for entry in sorted(entries)]
 
 
@@ -336,7 +336,7 @@ def test_what_other_runs_are_writing_to_a_shared_cache_stays(tmp_path: Path) -> 
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "cache").symlink_to(shelf)
     plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
-    assert Path(plan.tasks[0].source.entry).parent == shelf.resolve()
+    assert plan.tasks[0].source.entry.parent == shelf.resolve()
     old, new = (shelf / f".unfinished-{name}.npz" for name in ("old", "new"))
     for path in (old, new):
         path.write_text("half")

@@ -6,7 +6,7 @@ The scores of each pair, each composition and each replacement are a file of the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,6 @@ from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import Result, result_path, write_rows
 from kfmaps.batch.run_spec import digest_of
-from kfmaps.batch.shape_statistics import ShapeStatistics, write_shape_statistics
 from kfmaps.batch.work import (
     PairTask,
     error_text,
@@ -39,13 +38,30 @@ from kfmaps.collection.consistency import (
     score_stored,
     stored_candidates,
 )
+from kfmaps.collection.differences import LimitShape, components, density, shape_distances
+from kfmaps.collection.pair_graph import medoid
 from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, StoredMap, score_pair_maps
-from kfmaps.io import load_map
+from kfmaps.geometry.basis import Basis
+from kfmaps.io import atomic_output, load_map
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
 _TABLE = "pairs.csv"
 _LAYOUT = 7  # raised when what is kept of a pair changes
+_LATENT = "latent"
+_N_COMPONENTS = 5
+DIFFERENCE_KINDS = ("area", "conformal")
+
+
+@dataclass(frozen=True, eq=False)
+class ShapeStatistics:
+    """What maps that agree say of the shapes."""
+
+    table: tuple[tuple[str, ...], ...] = ()  # titles, then a row for each shape
+    # Of each component that pairs join, the largest first, by name: its shapes, the one in the middle, what the
+    # principal components explain, and where on the middle one the shapes vary.
+    parts: tuple[dict[str, np.ndarray], ...] = ()
+    note: str = ""  # what could not be
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,11 +73,6 @@ class ConsistentResult:
     doubted: tuple[str, ...]  # a line for each pair that others contradict and for which nothing better is known
     notes: tuple[str, ...] = ()  # what could not be taken into account
     shapes: ShapeStatistics = field(default_factory=ShapeStatistics)
-
-    @property
-    def replaced(self) -> int:
-        """How many maps were replaced."""
-        return len(self.before)
 
 
 def map_in_use(folder: Path, key: str) -> Path:
@@ -115,7 +126,7 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
     folder = plan.folder / CONSISTENT
     _write_pairs(folder / _TABLE, tasks, scores, names, repaired)
     common = common_bases(repaired, ends, scores, (load_prepared(task).basis for task in shapes.values()))
-    told = write_shape_statistics(folder, names, lambda name: load_prepared(shapes[name]).basis, repaired, common)
+    told = _write_shape_statistics(folder, names, lambda name: load_prepared(shapes[name]).basis, repaired, common)
     notes += [told.note] if told.note else []
     return ConsistentResult(final, {key: known[key] for key in changed}, tuple(doubted), tuple(notes), told)
 
@@ -135,7 +146,7 @@ class _ScoreTask:
 
     @property
     def file(self) -> Path:
-        folder, key = Path(self.task.folder) / CONSISTENT, self.task.key
+        folder, key = self.task.folder / CONSISTENT, self.task.key
         named = digest_of([[task.key, candidate, forward] for task, candidate, forward in self.steps])
         return folder / PATHS / f"{key}.{named}.npz" if self.steps else folder / EVIDENCE / f"{key}.npz"
 
@@ -165,7 +176,7 @@ class _Evidence:
 
 def _map_digest(task: PairTask) -> str:
     """Digest of a pair's own map and all that it was made from."""
-    path = map_path(Path(task.folder), task.key)
+    path = map_path(task.folder, task.key)
     return digest_of([_LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
 
 
@@ -183,7 +194,7 @@ def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
             if job.steps:
                 maps = score_pair_maps([_compose(job)], shapes, samples)
             else:
-                file = load_map(map_path(Path(job.task.folder), job.task.key))
+                file = load_map(map_path(job.task.folder, job.task.key))
                 lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)
                 if lost:
                     text = "the map of a part stays as it is and takes no part in this"
@@ -206,7 +217,7 @@ def _compose(job: _ScoreTask) -> StoredMap:
 
 def _replace_map(job: _ReplaceTask) -> Result:
     """Finish, evaluate and save the map that replaces another unless that is done; a failure is recorded."""
-    task, change, folder = job.task, job.change, Path(job.task.folder)
+    task, change, folder = job.task, job.change, job.task.folder
     steps = [] if job.path is None else [[n, forward, _map_digest(t)] for t, n, forward in job.path.steps]
     other = map_path(folder / CONSISTENT, task.key)
 
@@ -230,7 +241,7 @@ def _replace_map(job: _ReplaceTask) -> Result:
 
 
 def _candidates(task: PairTask) -> list[StoredMap]:
-    return stored_candidates(load_map(map_path(Path(task.folder), task.key)))
+    return stored_candidates(load_map(map_path(task.folder, task.key)))
 
 
 def _remove_replacements(plan: Plan, kept: set[str]) -> None:
@@ -254,3 +265,55 @@ def _write_pairs(
         numbers = f"{sync.probabilities[i][0]:.6f}", f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"
         rows.append([task.pair.source, task.pair.target, len(maps), *numbers, *changes.get(i, ("", ""))])
     write_rows(path, rows)
+
+
+def _write_shape_statistics(
+    folder: Path,
+    names: list[str],
+    basis: Callable[[str], Basis],
+    repaired: RepairResult,
+    limit_shapes: tuple[LimitShape, ...],
+) -> ShapeStatistics:
+    """Write the tables and the limit shape of each component that pairs join."""
+    hands, component = repaired.chirality, repaired.sync.component
+    hand = ["" if (hands == 1).all() else ("+" if h > 0 else "-") for h in hands]
+    for path in folder.glob(f"{_LATENT}*.npz"):
+        path.unlink()
+    scores: list[dict[str, str]] = [{} for _ in names]
+    apart: list[list[str]] = []
+    parts = []
+    for number, common in enumerate(limit_shapes, 1):
+        own = [names[i] for i in common.members.tolist()]
+        matrices = {kind: common.operators(kind) for kind in DIFFERENCE_KINDS}
+        distances = {kind: shape_distances(matrices[kind]) for kind in DIFFERENCE_KINDS}
+        for i, j in zip(*np.triu_indices(len(own), 1), strict=True):
+            apart.append([own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in DIFFERENCE_KINDS)])
+        middle = medoid(distances["area"])
+        middle_basis = basis(own[middle])
+        arrays = {"names": np.array(own), "middle": np.array(own[middle]), "maps": common.maps, "values": common.values}
+        for kind in DIFFERENCE_KINDS:
+            pca = components(matrices[kind], _N_COMPONENTS)
+            for i, row in zip(common.members.tolist(), pca.scores, strict=True):
+                scores[i] |= {f"{kind}_{c + 1}": f"{x:.6g}" for c, x in enumerate(row)}
+            arrays[f"explained_{kind}"] = pca.parts
+            arrays[f"variation_{kind}"] = density(matrices[kind], common, middle, middle_basis).std(axis=0)
+        path = folder / (f"{_LATENT}.npz" if number == 1 else f"{_LATENT}-{number}.npz")
+        with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
+            np.savez(file, allow_pickle=False, **arrays)
+        parts.append(arrays)
+    titles = [f"{kind}_{i + 1}" for kind in DIFFERENCE_KINDS for i in range(_N_COMPONENTS)]
+    titles = [title for title in titles if any(title in row for row in scores)]
+    rows = [(name, hand[i], str(component[i]), *(scores[i].get(t, "") for t in titles)) for i, name in enumerate(names)]
+    table = (("shape", "hand", "part", *titles), *rows)
+    write_rows(folder / "shapes.csv", table)
+    write_rows(folder / "distances.csv", [["shape", "other", *DIFFERENCE_KINDS], *apart])
+    note, count = "", len(np.unique(component))
+    if not limit_shapes:
+        note = "shapes that hang together, three or more, would have a common basis and principal components"
+    elif count > 1:
+        note = (
+            f"no pair joins the {count} parts of the collection; {len(parts)} of them have a common basis of their own"
+        )
+        alone = len(names) - sum(len(common.members) for common in limit_shapes)
+        note += f"; {alone} shapes are in parts of fewer than three" if alone else ""
+    return ShapeStatistics(table, tuple(parts), note)

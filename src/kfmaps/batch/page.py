@@ -19,12 +19,11 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps._threads import one_blas_thread
 from kfmaps.api import render
-from kfmaps.batch.consistent import ConsistentResult, map_in_use
+from kfmaps.batch.consistent import DIFFERENCE_KINDS, ConsistentResult, ShapeStatistics, map_in_use
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, describe_result, summarize, worst_first
 from kfmaps.batch.run_spec import read_run_spec
-from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, ShapeStatistics
 from kfmaps.batch.work import PairTask, map_path, true_vertices
 from kfmaps.cli.evaluation import Truth
 from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
@@ -200,8 +199,8 @@ def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> Figure:
     return figure
 
 
-def _variation(path: str, part: dict[str, np.ndarray]) -> str:
-    if not Path(path).exists():
+def _variation(path: Path, part: dict[str, np.ndarray]) -> str:
+    if not path.exists():
         return ""
     mesh = _quiet_mesh(path)
     values = {f"{kind} differs by": part[f"variation_{kind}"] for kind in DIFFERENCE_KINDS}
@@ -210,7 +209,7 @@ def _variation(path: str, part: dict[str, np.ndarray]) -> str:
     return _picture(values_figure(mesh, values), "png")
 
 
-def _quiet_mesh(path: str) -> Mesh:
+def _quiet_mesh(path: Path) -> Mesh:
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the run has noted them
         return read_mesh(path)
 
@@ -242,11 +241,10 @@ def _pictures(
         try:
             caption, new = describe_result(result), {}
             if before is not None:
-                new[f"before: {describe_result(before[result.pair])}"] = _draw(
-                    task, limit, map_path(Path(task.folder), task.key)
-                )
+                old = _draw(task, limit, map_path(task.folder, task.key))
+                new[f"before: {describe_result(before[result.pair])}"] = old
                 caption = f"now: {caption}, {result.changed}"
-            new[caption] = _draw(task, limit, map_in_use(Path(task.folder), task.key))
+            new[caption] = _draw(task, limit, map_in_use(task.folder, task.key))
         except (InvalidInput, OSError):
             continue
         pictures |= new

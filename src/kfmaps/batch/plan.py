@@ -139,7 +139,7 @@ class _Tasks:
         path = self.collection.shapes[name].resolve()
         content = self.digest(path)
         entry = self.cache_folder / f"{shape_key(content, path.suffix, self.spec.config)}.npz"
-        return ShapeTask(name, str(path), content, str(entry), str(self.folder), self.spec.config)
+        return ShapeTask(name, path, content, entry, self.folder, self.spec.config)
 
     def pair(self, pair: Pair) -> PairTask:
         collection, spec = self.collection, self.spec
@@ -148,13 +148,12 @@ class _Tasks:
         truth = _both(collection.truth, pair) if own is None and not spec.identity else None
         mirrored = collection.mirrored.get(pair.target) if truth else None
         use_files = spec.landmark_files and not spec.landmark_lines
-        given = collection.pair_landmarks.get(pair)
-        landmarks = (str(given[0]), str(given[1])) if given else _both(collection.landmarks, pair)
+        landmarks = collection.pair_landmarks.get(pair) or _both(collection.landmarks, pair)
         landmarks = landmarks if use_files else None
         files = [own, *(truth or ()), mirrored, *(landmarks or ())]
-        inputs = digest_of([source.content, target.content, *(self.digest(Path(f)) if f else None for f in files)])
-        mirrored, own = (None if path is None else str(path.resolve()) for path in (mirrored, own))
-        return PairTask(pair, str(self.folder), source, target, spec, inputs, truth, mirrored, own, landmarks)
+        inputs = digest_of([source.content, target.content, *(self.digest(f) if f else None for f in files)])
+        mirrored, own = (path and path.resolve() for path in (mirrored, own))
+        return PairTask(pair, self.folder, source, target, spec, inputs, truth, mirrored, own, landmarks)
 
 
 def _digest(path: Path) -> str:
@@ -174,8 +173,8 @@ def _make_folder(path: str | Path) -> Path:
     return path
 
 
-def _both(files: Mapping[str, Path], pair: Pair) -> tuple[str, str] | None:
+def _both(files: Mapping[str, Path], pair: Pair) -> tuple[Path, Path] | None:
     """The files of both shapes, when there are both."""
     if pair.source in files and pair.target in files:
-        return str(files[pair.source].resolve()), str(files[pair.target].resolve())
+        return files[pair.source].resolve(), files[pair.target].resolve()
     return None

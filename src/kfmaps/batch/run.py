@@ -120,7 +120,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
     for task in plan.todo:
         result_path(plan.folder, task.key).unlink(missing_ok=True)
     shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
-    prepared: dict[str, Prepared] = {}
+    prepared: dict[Path, Prepared] = {}
     done: list[Result] = list(plan.results)
     left = _work_left(plan)
 
@@ -146,16 +146,15 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
     with closing(pool.imap(prepare_shape, shapes, n_begun=_attempts)) as values:
         for number, value in values:
             task = shapes[number]
-            prepared[task.entry] = (
-                value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
-            )
-            if reason := prepared[task.entry].reason:
+            outcome = value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
+            prepared[task.entry] = outcome
+            if reason := outcome.reason:
                 told = f"shape {task.name} could not be prepared: {reason}"
                 log("shape failed", told, shape=task.name, reason=reason)
             tell()
     jobs = [(task, prepared[task.source.entry], prepared[task.target.entry]) for task in plan.todo]
-    label, n_begun = (lambda job: str(job[0])), (lambda job: _attempts(job[0]))
-    with closing(pool.imap(_match, jobs, label=label, n_begun=n_begun)) as values:
+    results = pool.imap(match_pair, jobs, label=lambda job: str(job[0]), n_begun=lambda job: _attempts(job[0]))
+    with closing(results) as values:
         for number, value in values:
             result = record_failure(plan.todo[number], error_text(value)) if isinstance(value, Exception) else value
             left.end(number, result.seconds["total"] if result.status == "done" else None)
@@ -164,12 +163,8 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
             yield result
 
 
-def _match(job: tuple[PairTask, Prepared, Prepared]) -> Result:
-    return match_pair(*job)
-
-
 def _attempts(task: ShapeTask | PairTask) -> int:
-    return attempts(Path(task.folder), task.key)
+    return attempts(task.folder, task.key)
 
 
 def _work_left(plan: Plan) -> WorkLeft:
@@ -184,7 +179,7 @@ def _work_left(plan: Plan) -> WorkLeft:
 def _vertices(task: ShapeTask) -> float:
     """Return the number of vertices of a shape, about, from the length of its file."""
     try:
-        return Path(task.path).stat().st_size / _BYTES
+        return task.path.stat().st_size / _BYTES
     except OSError:
         return 0.0
 

@@ -49,10 +49,10 @@ class ShapeTask:
     """One shape to prepare: small, and the same on every machine."""
 
     name: str
-    path: str  # of the mesh
+    path: Path  # of the mesh
     content: str  # digest of that file when the run began
-    entry: str  # where in the cache the prepared shape lies or will lie
-    folder: str  # the output folder
+    entry: Path  # where in the cache the prepared shape lies or will lie
+    folder: Path  # the output folder
     config: Config
 
     def __str__(self) -> str:
@@ -60,7 +60,7 @@ class ShapeTask:
 
     @property
     def key(self) -> str:
-        return Path(self.entry).stem
+        return self.entry.stem
 
 
 @dataclass(frozen=True)
@@ -77,15 +77,15 @@ class PairTask:
     """One pair to match."""
 
     pair: Pair
-    folder: str  # the output folder
+    folder: Path  # the output folder
     source: ShapeTask
     target: ShapeTask
     spec: RunSpec
     inputs: str  # digest of the files, as of Result
-    truth: tuple[str, str] | None = None  # vertex lists of source and target
-    mirrored: str | None = None  # vertex list of the target, left and right swapped
-    truth_map: str | None = None  # truth of this pair alone, see ShapeFolder
-    landmarks: tuple[str, str] | None = None  # vertex lists of source and target, or landmarks with names
+    truth: tuple[Path, Path] | None = None  # vertex lists of source and target
+    mirrored: Path | None = None  # vertex list of the target, left and right swapped
+    truth_map: Path | None = None  # truth of this pair alone, see ShapeFolder
+    landmarks: tuple[Path, Path] | None = None  # vertex lists of source and target, or landmarks with names
 
     def __str__(self) -> str:
         return str(self.pair)
@@ -126,22 +126,24 @@ def attempts(folder: Path, key: str) -> int:
 
 def prepare_shape(task: ShapeTask) -> Prepared:
     """Prepare a shape unless the cache has it. A shape that cannot be prepared is told of, not raised."""
-    entry = Path(task.entry)
-    if load_record(entry, Shape) is not None:
+    if load_record(task.entry, Shape) is not None:
         return Prepared(task.name)
-    begin(Path(task.folder), task.key)
+    begin(task.folder, task.key)
 
     def prepared() -> dict[str, Any]:
         if file_digest(task.path) != task.content:
-            raise refuse(task.path, "the file as it was when the run began", "a changed one", "run the command again")
-        save_record(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
+            raise refuse(
+                str(task.path), "the file as it was when the run began", "a changed one", "run the command again"
+            )
+        save_record(task.entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
         return {}
 
     return Prepared(task.name, *_attempt(prepared)[1:])
 
 
-def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
+def match_pair(job: tuple[PairTask, Prepared, Prepared]) -> Result:
     """Match a pair unless its result is there; save the map and then the result. A failure is recorded, not raised."""
+    task, source, target = job
 
     def matched() -> dict[str, Any]:
         for part in (source, target):
@@ -149,10 +151,8 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
         return _matched(task)
 
-    folder = Path(task.folder)
-    return record_pair(
-        task, task.inputs, folder, map_path(folder, task.key), matched, notes=(*source.notes, *target.notes)
-    )
+    path = map_path(task.folder, task.key)
+    return record_pair(task, task.inputs, task.folder, path, matched, notes=(*source.notes, *target.notes))
 
 
 def record_pair(
@@ -181,9 +181,8 @@ def record_pair(
 
 def record_failure(task: PairTask, reason: str) -> Result:
     """Record that a pair cannot be matched, for a reason outside the work itself."""
-    folder = Path(task.folder)
-    result = _make_result(task, reason, task.inputs, attempts=attempts(folder, task.key), worker="")
-    write_result(result_path(folder, task.key), result)
+    result = _make_result(task, reason, task.inputs, attempts=attempts(task.folder, task.key), worker="")
+    write_result(result_path(task.folder, task.key), result)
     return result
 
 
@@ -222,7 +221,7 @@ def now() -> str:
 
 def load_prepared(task: ShapeTask) -> Shape:
     """Return the prepared shape of a task, from the cache."""
-    shape = load_record(Path(task.entry), Shape)
+    shape = load_record(task.entry, Shape)
     if shape is None:
         raise refuse(f"prepared shape {task.name}", "an entry in the cache", "none", "run the command again")
     return replace(shape, name=task.name)
@@ -235,7 +234,7 @@ def pair_shapes(task: PairTask) -> tuple[Shape, Shape]:
 
 def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamples, ShapeSamples]:
     """Return what a search needs to know of both shapes, from the cache."""
-    entries, seed = (Path(task.source.entry), Path(task.target.entry)), task.spec.seed
+    entries, seed = (task.source.entry, task.target.entry), task.spec.seed
     return cached_samples(shapes[0], entries[0], seed), cached_samples(shapes[1], entries[1], seed)
 
 
@@ -245,7 +244,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
     landmarks = _landmark_pairs(task, *(len(shape.mesh.vertices) for shape in shapes))
     probes = pair_samples(task, shapes) if config.search is not None and landmarks is None else None
     found = match(*shapes, config, landmarks=landmarks, rng=task.spec.seed, probes=probes)
-    return save_pair_map(task, found, shapes, map_path(Path(task.folder), task.key))
+    return save_pair_map(task, found, shapes, map_path(task.folder, task.key))
 
 
 def save_pair_map(task: PairTask, found: Match, shapes: tuple[Shape, Shape], path: Path) -> dict[str, Any]:
@@ -257,7 +256,7 @@ def save_pair_map(task: PairTask, found: Match, shapes: tuple[Shape, Shape], pat
     reached = coverage(points, source)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     path.parent.mkdir(parents=True, exist_ok=True)
-    save_map(path, with_files(found, (Path(task.source.path), Path(task.target.path)), (source, target)), force=True)
+    save_map(path, with_files(found, (task.source.path, task.target.path), (source, target)), force=True)
     return _errors(accuracy) | {
         "vertices_s": len(source.vertices),
         "vertices_t": len(target.vertices),
@@ -306,7 +305,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
         return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.spec.identity)
     numbers = read_vertex_numbers(task.truth_map, one_based=True)
     if len(numbers) != n_s:
-        raise refuse(task.truth_map, f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")
+        raise refuse(str(task.truth_map), f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")
     return check_truth(Truth(np.arange(n_s), numbers), n_s, n_t)
 
 
@@ -324,7 +323,7 @@ def _landmark_pairs(task: PairTask, n_s: int, n_t: int) -> np.ndarray | None:
     if task.landmarks is None:
         return None
     if any(map(landmark_suffix, task.landmarks)):
-        files = Path(task.source.path), Path(task.target.path)
+        files = task.source.path, task.target.path
         meshes = [read_shape_mesh(file) for file in files]  # prepared shapes have another unit
         return read_landmark_pairs(task.landmarks, meshes, files)[0]
     return np.stack(read_vertex_lists(task.landmarks, (n_s, n_t)), axis=1)

@@ -145,8 +145,8 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
 def _describe_consistent(found: ConsistentResult) -> list[str]:
     """Which maps were replaced, by what and why."""
     lines = ["no map replaced" if found.doubted else "all maps agree: none replaced"]
-    if found.replaced:
-        lines = [f"{plural(found.replaced, 'map')} replaced that others contradict"]
+    if found.before:
+        lines = [f"{plural(len(found.before), 'map')} replaced that others contradict"]
     for r in found.results:
         if r.changed:
             errors = (
