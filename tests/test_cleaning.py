@@ -25,7 +25,7 @@ from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
 from kfmaps.registration.nonrigid_icp import NonRigid
-from kfmaps.shape import clean_shape, prepare
+from kfmaps.shape import prepare
 
 GUARDS = (
     "kfmaps.descriptors.shot",
@@ -256,19 +256,27 @@ def test_edges_of_no_length_connect_nothing() -> None:
 
 def test_a_shape_that_is_clean_is_worked_on_as_it_is() -> None:
     shape = prepare(blob(300), SMALL)
-    assert clean_shape(shape)[0] is shape
+    assert shape.cleaned[0] is shape
 
 
 def test_a_prepared_shape_keeps_every_vertex() -> None:
     mesh = littered(blob(300))
     shape, clean = quietly(mesh), quietly(blob(300))
     assert len(shape.mesh.vertices) == len(shape.basis.functions) == len(mesh.vertices)
-    within, part = clean_shape(shape)
+    within, part = shape.cleaned
     for name in ("eigenvalues", "functions", "mass"):
         np.testing.assert_array_equal(getattr(within.basis, name), getattr(clean.basis, name))
     np.testing.assert_array_equal(within.mesh.vertices, clean.mesh.vertices)
     np.testing.assert_array_equal(within.mesh.faces, clean.mesh.faces)
     np.testing.assert_array_equal(part.to_original, np.arange(300))
+    # Cleaned again it is what its preparation has left.
+    again, numbers = replace(shape).cleaned
+    np.testing.assert_allclose(again.mesh.vertices, within.mesh.vertices, atol=1e-12)
+    np.testing.assert_array_equal(again.mesh.faces, within.mesh.faces)
+    for name in ("to_original", "to_clean", "unreferenced", "faces_to_original"):
+        np.testing.assert_array_equal(getattr(numbers, name), getattr(part, name))
+    for name in ("functions", "mass"):
+        np.testing.assert_array_equal(getattr(again.basis, name), getattr(within.basis, name))
     # Moved and scaled as one.
     scale = np.linalg.norm(shape.mesh.vertices[0] - shape.mesh.vertices[-1]) / np.linalg.norm(
         mesh.vertices[0] - mesh.vertices[-1]

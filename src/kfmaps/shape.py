@@ -5,14 +5,14 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Protocol
 
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import KfmapsWarning, refuse, take
+from kfmaps._arrays import Array, KfmapsWarning, refuse, take
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._records import short_repr
 from kfmaps._threads import available_cores, parallel
@@ -49,7 +49,7 @@ class Shape:
         Scaled to unit area, vertices in the order given.
     basis : Basis
         Of as many functions as the configuration needs in all. Vertices that lie on no surface, and all but the first
-        in one place, have no area and the functions of the vertex that they count as (:func:`clean_shape`).
+        in one place, have no area and the functions of the vertex that they count as (:attr:`cleaned`).
     shot : (n, 352) float64, of a large shape float32, or None
         The SHOT descriptor when the configuration asks for it; a point cloud has none.
     name : str
@@ -73,6 +73,19 @@ class Shape:
     extent: float | None = None
 
     __repr__ = short_repr
+
+    @cached_property
+    def cleaned(self) -> tuple[Shape, CleanedMesh]:
+        """The shape with each place once, faces outward, without unused vertices and specks, and how it is numbered.
+
+        A match works on that; a shape that has nothing of the kind is returned as it is.
+        """
+        part = face_outward(clean_mesh(self.mesh, specks=True))
+        if part.whole:
+            return (self if part.mesh is self.mesh else replace(self, mesh=part.mesh)), part
+        kept = part.to_original
+        few = _renumbered(self.basis, kept, take(self.basis.mass, kept))
+        return replace(self, mesh=part.mesh, basis=few, shot=None if self.shot is None else self.shot[kept]), part
 
     @property
     def given_mesh(self) -> Mesh:
@@ -116,20 +129,6 @@ def sample_shape(
     local = None if shape.shot is None else shape.shot[rows]
     part = replace(shape, mesh=cloud, basis=samples.basis, shot=local)
     return SampledShape(part, rows, np.searchsorted(rows, landmarks))
-
-
-def clean_shape(shape: Shape) -> tuple[Shape, CleanedMesh]:
-    """Return ``shape`` with each place once, faces outward, without unused vertices and specks, and how it is numbered.
-
-    A match works on that; a shape that has nothing of the kind is returned as it is.
-    """
-    part = face_outward(clean_mesh(shape.mesh, specks=True))
-    if part.whole:
-        return (shape if part.mesh is shape.mesh else replace(shape, mesh=part.mesh)), part
-    kept, basis = part.to_original, shape.basis
-    local = None if shape.shot is None else shape.shot[kept]
-    few = Basis(basis.eigenvalues, take(basis.functions, kept), take(basis.mass, kept))
-    return replace(shape, mesh=part.mesh, basis=few, shot=local), part
 
 
 def prepare(
@@ -179,9 +178,12 @@ def prepare(
         return shape
     mass = np.zeros(len(mesh.vertices))
     mass[part.to_original] = basis.mass
-    whole = Basis(basis.eigenvalues, basis.functions[part.to_clean], mass)
+    whole = _renumbered(basis, part.to_clean, mass)
     local = None if local is None else local[part.to_clean]
-    return replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
+    placed = replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
+    if not is_cloud:  # what a match works on is at hand
+        vars(placed)["cleaned"] = replace(shape, mesh=small), replace(part, mesh=small)
+    return placed
 
 
 def _local_descriptors(
@@ -216,6 +218,11 @@ def mirror_image(shape: Shape) -> Shape:
             shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'preserving'"
         )
     return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirror_shot(shape.shot))
+
+
+def _renumbered(basis: Basis, rows: np.ndarray, mass: Array) -> Basis:
+    """The basis with its functions' ``rows (m,)``, column by column, and another mass (m,)."""
+    return Basis(basis.eigenvalues, take(basis.functions.T, rows, axis=1).T, mass)
 
 
 def _placed(mesh: Mesh, part: CleanedMesh, small: Mesh) -> Mesh:

@@ -10,7 +10,7 @@ from kfmaps._arrays import Array, check, refuse, to_numpy
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.clean import CleanedMesh
 from kfmaps.matching.fit import check_landmark_pairs
-from kfmaps.shape import Shape, clean_shape
+from kfmaps.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,7 +18,7 @@ class VertexReindexing:
     """Two prepared shapes as they are outside and inside; made by :func:`reindexing`."""
 
     outside: tuple[Shape, Shape]
-    source: Shape  # inside: each place once, without unused vertices and specks (:func:`kfmaps.shape.clean_shape`)
+    source: Shape  # inside: each place once, without unused vertices and specks (:attr:`kfmaps.shape.Shape.cleaned`)
     target: Shape
     part_s: CleanedMesh  # how their vertices are numbered
     part_t: CleanedMesh
@@ -95,5 +95,5 @@ class VertexReindexing:
 
 def reindexing(source: Shape, target: Shape) -> VertexReindexing:
     """Return the numbers of the cleaned meshes of two prepared shapes beside those of the meshes as given."""
-    (within_s, part_s), (within_t, part_t) = clean_shape(source), clean_shape(target)
+    (within_s, part_s), (within_t, part_t) = source.cleaned, target.cleaned
     return VertexReindexing((source, target), within_s, within_t, part_s, part_t)

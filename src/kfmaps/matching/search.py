@@ -61,7 +61,7 @@ from kfmaps.matching.score import (
     verdict,
 )
 from kfmaps.matching.self_maps import with_self_maps
-from kfmaps.shape import Shape, clean_shape
+from kfmaps.shape import Shape
 
 _FEWER = 100
 """Functions at the end of the refinement of shapes that differ much: their high functions do not correspond."""
@@ -464,7 +464,7 @@ def alternative_maps(
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
     """Return what a search with ``rng`` needs to know of one shape, whatever it is matched with."""
-    made = sample_for_scoring(clean_shape(shape)[0], rng=drawn_seed(seed_of(rng)), threads=1)
+    made = sample_for_scoring(shape.cleaned[0], rng=drawn_seed(seed_of(rng)), threads=1)
     return with_self_maps(made, subsample(made, FEW))
 
 
