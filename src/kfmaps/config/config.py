@@ -46,7 +46,7 @@ class Config:
         10_000, "points of each shape that the fit is made from; the point map always uses all", low=2, none="all"
     )
     refinement: Refinement | None = setting(
-        lambda: ZoomOut(start=50, stop=150, step=20, samples=3500, descriptor_weight=36.0),
+        lambda: ZoomOut(start=50, stop=100, step=20, samples=3500, descriptor_weight=36.0),
         "what improves the raw map after the fit",
     )
     registration: NonRigid | Callable[..., Any] | None = setting(NonRigid, "the non-rigid fit at the finish")

@@ -39,7 +39,7 @@ class DescriptorConfig:
     signature_share: float = setting(
         0.3, "part of n_spectral for the signature where there are landmarks", low=0, high=1
     )
-    n_eigenfunctions: int = setting(150, "eigenfunctions that spectral descriptors are made from", low=2)
+    n_eigenfunctions: int = setting(100, "eigenfunctions that spectral descriptors are made from", low=2)
     energy_sampling: Literal["even", "every-nth"] = setting("even", "energies: evenly spread, or each n-th of 200")
     shot: bool = setting(True, "add the SHOT descriptor of the local surface")
     shot_radius: float = setting(0.09, "radius of SHOT in √area", above=0)
