@@ -81,10 +81,28 @@ def test_shot_of_some_vertices_stands_for_all(pair, monkeypatch):
     assert 0 < away < 0.25 * np.linalg.norm(exact - exact[::-1], axis=1).mean()
 
 
+@pytest.mark.parametrize(
+    ("radius", "wanted"), [(0.1, 10_000), (0.15, 550 / (np.pi * 0.15**2)), (0.2, 550 / 0.04 / np.pi)]
+)
+def test_shot_of_a_large_shape_counts_so_many_points_in_a_ball(monkeypatch, radius, wanted):
+    """A ball of radius r around a point of a sphere has π r² of its area."""
+    sphere, asked = unit_area(fibonacci_sphere(1500)), []
+
+    def told(_mesh, _radius, *, samples, at, **_rest):
+        asked.append(samples)
+        return np.ones((len(at), 2))
+
+    monkeypatch.setattr(fit_shape, "DESCRIBED", 1000)
+    monkeypatch.setattr(fit_shape, "shot", told)
+    _local_descriptors(sphere, laplace_basis(sphere, 20), radius)
+    assert asked == [pytest.approx(wanted, rel=0.03)]
+
+
 def test_shot_between_samples_is_the_mean_by_inverse_squared_distances(pair, monkeypatch):
     shape = pair[0]
     exact = _local_descriptors(shape.mesh, shape.basis, 0.15)
     monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
+    monkeypatch.setattr(fit_shape, "_IN_BALL", 1000)  # as many support points as all vertices have
     found = _local_descriptors(shape.mesh, shape.basis, 0.15)
     chosen = stratified_vertices(shape.basis, 800, 0)
     places = np.hstack([shape.mesh.vertices, fit_shape._NORMALS * vertex_normals(shape.mesh)])

@@ -30,6 +30,9 @@ FEW, NEARLY = 3_000, 1e-2
 """Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
+_SUPPORT, _IN_BALL = 10_000, 550
+"""Support points of SHOT, and how many lie in a ball of a large surface that then has fewer in all: of bodies 340, of
+skulls with their two walls 1,000."""
 _NO_SURFACE = (
     "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
     "told: give three landmarks, or a mesh made from the points"
@@ -197,7 +200,10 @@ def _local_descriptors(
     if len(mesh.vertices) <= DESCRIBED:
         return shot(mesh, radius, threads=threads, progress=progress)
     chosen = stratified_vertices(basis, DESCRIBED, 0)
-    found = shot(mesh, radius, at=chosen, threads=threads, progress=progress)
+    few = mesh.vertices[chosen]
+    near = KDTree(few).query_ball_point(few[::8], radius, return_length=True)
+    samples = min(_SUPPORT, round(_IN_BALL * len(few) / near.mean()))
+    found = shot(mesh, radius, samples=samples, at=chosen, threads=threads, progress=progress)
     places = np.hstack([mesh.vertices, _NORMALS * vertex_normals(mesh)])
     away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())
     weights = 1.0 / np.maximum(np.asarray(away) ** 2, 1e-12)
