@@ -662,17 +662,22 @@ MUTANTS = tuple(
             "test_registration_evidence -k over_usual",
         ),
         (
-            "shot_error=None if shot_errors is None else shot_errors - usual[1]",
-            "shot_error=shot_errors",
+            "name: value - least for",
+            "name: value for",
             "test_registration_evidence -k over_usual",
         ),
         (
-            "strain=None if strain is None else strain - usual[0]",
-            "strain=strain",
+            "known = [replace(c, extremity_error=None).score",
+            "known = [c.score",
+            "test_alternating_registration -k surer",
+        ),
+        (
+            "misplaced = -numbers.w_extremity_distances",
+            "misplaced = numbers.w_extremity_distances",
             "test_registration_evidence -k over_usual",
         ),
         (
-            "reference_values(found, np.mean)[0], reference_values(found, min)[1]",
+            "reference_values(found, np.mean)[0], *reference_values(found, min)[1:]",
             "reference_values(found, np.mean)",
             "test_registration_evidence -k looks_decide",
         ),

@@ -136,13 +136,14 @@ def one_of(creatures):
 
 def test_looks_and_strain_count_over_usual_ones(creatures):
     one = one_of(creatures)[1]
-    some = [replace(one, strain=s, shot_error=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
-    assert reference_values(some, min) == (-2.0, 0.2)
-    assert reference_values(some, np.mean) == pytest.approx((-1.5, 0.23))
-    assert reference_values(some[2:], min) == (0.0, 0.0)
-    assert normalize_errors(some[0], (-2.0, 0.2)).score == pytest.approx(one.score - SCORE.w_strain)
-    assert normalize_errors(some[1], (-2.0, 0.2)).score == pytest.approx(one.score - SCORE.w_shot * 0.06)
-    assert normalize_errors(some[2], (-2.0, 0.2)).score == one.score
+    evidence = ((-1.0, 0.2, None), (-2.0, 0.26, 0.3), (-2.0, None, 0.5), (None, None, None))
+    some = [replace(one, strain=s, shot_error=m, extremity_error=e) for s, m, e in evidence]
+    usual = (-2.0, 0.2, 0.3)
+    assert reference_values(some, min) == usual
+    assert reference_values(some, np.mean) == pytest.approx((-5 / 3, 0.23, 0.4))
+    assert reference_values(some[3:], min) == (0.0, 0.0, 0.0)
+    lost = [one.score - normalize_errors(c, usual).score for c in some]
+    assert lost == pytest.approx([SCORE.w_strain, SCORE.w_shot * 0.06, SCORE.w_extremity_distances * 0.2, 0.0])
 
 
 def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypatch):
@@ -160,8 +161,11 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
-    assert [c.name for c in ranked] == ["bad", "truth"]
+    # Distances from extremities tell too.
+    for matches, names in ((mending.match_extremities, ["truth", "bad"]), (lambda *_what: [], ["bad", "truth"])):
+        monkeypatch.setattr(mending, "match_extremities", matches)
+        ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
+        assert [c.name for c in ranked] == names
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
     monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])

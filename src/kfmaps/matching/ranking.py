@@ -26,6 +26,8 @@ from kfmaps.shape import Shape, mirror_image
 
 BENT = 3
 """Distinct maps that are registered."""
+RELATIVE = ("strain", "shot_error", "extremity_error")
+"""Evidence of a candidate that tells only beside that of others."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +139,7 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
 
     found = parallel(with_shot_error, order[:2], threads)
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.
-    middle = reference_values(found, np.mean)[0], reference_values(found, min)[1]
+    middle = reference_values(found, np.mean)[0], *reference_values(found, min)[1:]
     return in_order([normalize_errors(c, middle) for c in found]) + order[2:]
 
 
@@ -147,21 +149,16 @@ def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
     return replace(found, deformation_energy=one.energy, strain=one.strain, shot_error=None)
 
 
-def reference_values(found: list[Candidate], of: Callable[[list[float]], float]) -> tuple[float, float]:
-    """Return the strain and the mismatch that those of bent candidates are compared with: both depend on the shapes."""
-    strains = [c.strain for c in found if c.strain is not None]
-    shot_errors = [c.shot_error for c in found if c.shot_error is not None]
-    return float(of(strains)) if strains else 0.0, float(of(shot_errors)) if shot_errors else 0.0
+def reference_values(found: list[Candidate], of: Callable[[list[float]], float]) -> tuple[float, ...]:
+    """Return what each of :data:`RELATIVE` of candidates is compared with: all depend on the shapes."""
+    known = ([value for c in found if (value := getattr(c, name)) is not None] for name in RELATIVE)
+    return tuple(float(of(values)) if values else 0.0 for values in known)
 
 
-def normalize_errors(found: Candidate, usual: tuple[float, float]) -> Candidate:
-    """Return a candidate with strain and mismatch, where they are known, less those of ``usual``."""
-    strain, shot_errors = found.strain, found.shot_error
-    return replace(
-        found,
-        strain=None if strain is None else strain - usual[0],
-        shot_error=None if shot_errors is None else shot_errors - usual[1],
-    )
+def normalize_errors(found: Candidate, usual: tuple[float, ...]) -> Candidate:
+    """Return a candidate with its :data:`RELATIVE` evidence, where it is known, less the ``usual``."""
+    values = ((name, getattr(found, name), least) for name, least in zip(RELATIVE, usual, strict=True))
+    return replace(found, **{name: value - least for name, value, least in values if value is not None})
 
 
 def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:

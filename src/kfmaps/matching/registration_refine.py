@@ -20,8 +20,10 @@ from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.matching.candidates import FINE, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
+    ExtremityMatch,
     ExtremityVertices,
     complete_match,
+    extremity_error,
     match_extremities,
     match_of_map,
     unused_matches,
@@ -51,26 +53,28 @@ class RepairSetting:
     landmarks: np.ndarray
     shot: DescriptorGuidance | None
     graphs: tuple[csr_array, csr_array]  # geodesic graphs of both meshes, of depth 1
+    likely: list[ExtremityMatch]  # extremity matches, the likeliest first
 
 
 @dataclass(frozen=True, eq=False)
 class SwappedRepair:
     """A repair that was not made: of the ``candidate``, the source registered onto the target.
 
-    ``reference``: strain and SHOT error of the best repaired candidates, over which its own count.
+    ``reference``: :data:`RELATIVE` evidence of the best repaired candidates, over which its own counts.
     """
 
     setting: RepairSetting
     candidate: Candidate
     extremities: ExtremityVertices | None
-    reference: tuple[float, float]
+    reference: tuple[float, ...]
 
     def make(self) -> Candidate | None:
         """Return the repaired candidate; ``None`` where the registration falls apart."""
         *_, made = _repair_rounds(self.setting, self.candidate, self.extremities, swapped=False)
         if made is None:
             return None
-        made = _with_shot_error(self.setting, score_registered(made, self.setting.proxies))
+        made = _with_extremity_error(self.setting, score_registered(made, self.setting.proxies))
+        made = _with_shot_error(self.setting, made)
         return normalize_errors(made, self.reference)
 
 
@@ -96,14 +100,15 @@ def refine_by_registration(
     if finer is None:
         return ranked, ()
     graphs = geodesic_graph(copies.source.mesh, 1), geodesic_graph(copies.image.mesh, 1)
-    setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs)
+    likely = match_extremities(samples.source, samples.target, samples.descriptor_cost)
+    setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs, likely)
     near, rest = repairable(ranked, samples.source)
-    begun = _begin(near, samples)
+    begun = _begin(near, setting)
     ended, behind = _repair_all(setting, begun, near, threads, progress)
     tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
     # Those that were given up count as bent as badly as the worst.
     energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
-    energy, (strain, shot_error) = max(energies, default=None), reference_values(tried, max)
+    energy, (strain, shot_error, _) = max(energies, default=None), reference_values(tried, max)
     given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
     reference, every = reference_values(tried, min), [*tried, *given_up]
     order = in_order([normalize_errors(c, reference) for c in every])
@@ -153,8 +158,11 @@ def _repair_all(
     behind = {i: c for i, c in better.items() if i not in going}
     done[:] = 1.0
     done[going] = 0.5
-    ended = zip(going, parallel(end_one, going, threads), strict=True)
-    return {i: c for i, c in ended if c is not None}, behind
+    ended = dict(zip(going, parallel(end_one, going, threads), strict=True))
+    ended, behind = (
+        {i: _with_extremity_error(setting, c) for i, c in some.items() if c is not None} for some in (ended, behind)
+    )
+    return ended, behind
 
 
 def _quality(one: Candidate) -> float:
@@ -202,9 +210,9 @@ def register_map_on_proxies(
         yield None
 
 
-def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
+def _begin(near: list[Candidate], setting: RepairSetting) -> list[tuple[Candidate, ExtremityVertices | None]]:
     """Return what repairs begin with: candidates, and maps of likely extremity matches that none of them has."""
-    likely = match_extremities(samples.source, samples.target, samples.descriptor_cost)
+    samples, likely = setting.samples, setting.likely
     found = [match_of_map(one.points, samples.source, samples.target) for one in near]
     known = [one and complete_match(one, likely) for one in found]
     begun = [
@@ -236,6 +244,11 @@ def _best_repair(
     return max(scored, key=lambda c: c.score)
 
 
+def _with_extremity_error(setting: RepairSetting, one: Candidate) -> Candidate:
+    source, target = setting.samples.source, setting.samples.target
+    return replace(one, extremity_error=extremity_error(one.points, setting.likely, source, target))
+
+
 def _with_shot_error(setting: RepairSetting, one: Candidate) -> Candidate:
     return replace(one, shot_error=registered_shot_error(one.functional_map, setting.proxies))
 
@@ -245,8 +258,8 @@ def compared(
 ) -> list[Candidate]:
     """Return the repaired candidates with their SHOT errors; those far behind have the worst that is computed."""
     found = [replace(c, shot_error=None) for c in found]
-    strain = reference_values(found, min)[0]
-    scores = [normalize_errors(c, (strain, 0.0)).score for c in found]
+    reference = reference_values(found, min)
+    scores = [normalize_errors(c, reference).score for c in found]
     near = [score > max(scores) - SCORE.hopeless_margin for score in scores]
     seen = parallel(with_shot_error, [c for c, yes in zip(found, near, strict=True) if yes], threads)
     worst = max((c.shot_error for c in seen if c.shot_error is not None), default=None)

@@ -369,7 +369,7 @@ def _best_by_surface(state: _Search) -> list[Candidate]:
 
 def _without_evidence(found: Candidate) -> Candidate:
     """Return a candidate without landmarks, and without what is only known beside other candidates."""
-    return replace(found, landmark_errors=np.zeros(0), strain=None, shot_error=None)
+    return replace(found, landmark_errors=np.zeros(0), strain=None, shot_error=None, extremity_error=None)
 
 
 def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> SearchResult:
@@ -377,7 +377,10 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     config, samples = state.config, state.samples.whole
     assert config.search is not None
     near = [(c, margin) for c, margin in state.doubts if margin < SCORE.close_margin]
-    margins = [*(margin for _, margin in near), *(best.score - c.score for c in rest[:1])]
+    # Distances from extremities choose between repaired maps; the calibration does not know them.
+    rivals = [c for c in rest if c.extremity_error is not None] or rest[:1]
+    known = [replace(c, extremity_error=None).score for c in (best, *rivals)]
+    margins = [*(margin for _, margin in near), *(known[0] - score for score in known[1:])]
     if not _are_surfaces(samples) and (~state.wrong).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
     others = [*(c for c, _ in near), *rest][: config.search.n_alternatives]
