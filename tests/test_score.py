@@ -27,7 +27,7 @@ from kfmaps.matching.score import (
 GUARDS = ("kfmaps.matching.score",)
 
 QUALITY = Quality(0.9, 0.1, 0.12, 0.2, 0.1, 0.9, 0.05, 0.3)
-REGISTERED = {"deformation_energy": 0.3, "strain": 0.4, "shot_error": 0.05, "extremity_error": 0.03}
+REGISTERED: dict[str, Any] = {"deformation_energy": 0.3, "strain": 0.4, "shot_error": 0.05, "extremity_error": 0.03}
 CANDIDATE = Candidate("a", np.eye(2), np.zeros(3, dtype=int), QUALITY, True, np.array([0.1, 0.9]), **REGISTERED)
 PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2.0)
 

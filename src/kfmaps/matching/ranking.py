@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -158,7 +159,8 @@ def reference_values(found: list[Candidate], of: Callable[[list[float]], float])
 def normalize_errors(found: Candidate, usual: tuple[float, ...]) -> Candidate:
     """Return a candidate with its :data:`RELATIVE` evidence, where it is known, less the ``usual``."""
     values = ((name, getattr(found, name), least) for name, least in zip(RELATIVE, usual, strict=True))
-    return replace(found, **{name: value - least for name, value, least in values if value is not None})
+    changed: dict[str, Any] = {name: value - least for name, value, least in values if value is not None}
+    return replace(found, **changed)
 
 
 def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
