@@ -129,8 +129,8 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
 def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:
     """Which faces lie on no speck, (f,) bool, and how many specks there are."""
     n, faces = len(mesh.vertices), mesh.faces
-    count, label = component_labels(n, faces.ravel(), np.roll(faces, 1, axis=1).ravel())
+    count, label = component_labels(n, faces[:, :2].ravel(), faces[:, 1:].ravel())
     piece = label[faces[:, 0]]
     areas = np.bincount(piece, face_areas(mesh), minlength=count)
     speck = areas < _MAX_SPECK_AREA * areas.max(initial=0.0)
-    return ~speck[piece], int(speck[np.unique(piece)].sum())
+    return ~speck[piece], int(speck[np.bincount(piece, minlength=count) > 0].sum())
