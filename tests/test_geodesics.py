@@ -10,7 +10,7 @@ from scipy.spatial import Delaunay
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import _SEARCHES, farthest_geodesic, geodesic_distance_pairs, geodesic_distances
+from kfmaps.geometry.geodesics import farthest_geodesic, geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 
 GUARDS = ("kfmaps.geometry.geodesic_graph", "kfmaps.geometry.geodesics")
@@ -183,7 +183,7 @@ def test_clouds() -> None:
 
 def test_farthest_samples_are_the_farthest() -> None:
     mesh = blob(400)
-    count = _SEARCHES + 60  # beyond the whole searches: the spreading front must agree with them
+    count = 124
     samples = farthest_geodesic(mesh, count, rng=4)
     nearest = np.minimum.accumulate(dijkstra(geodesic_graph(mesh, 1), indices=samples), axis=0)
     reach = nearest[np.arange(count - 1), samples[1:]]

@@ -20,7 +20,6 @@ from kfmaps.geometry.mesh import Mesh, check_is_mesh
 
 _FULL_SEARCHES = 100  # points that :func:`pairwise_geodesics` searches all of the surface from
 _NEARBY = 0.25  # distance at unit area up to which it searches from the others: a fifth of a body
-_SEARCHES = 64  # farthest samples whose regions are large enough that a whole search is faster than a spreading front
 
 
 def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:
@@ -173,8 +172,8 @@ def farthest_geodesic(
 ) -> np.ndarray:
     """Return vertices spread evenly over the surface: each is the farthest from those before it.
 
-    Distances run over edges and the diagonals of neighbouring faces (1.3 % error). Each new sample costs only the
-    vertices that are nearer to it than to all before, so the whole costs little more than a few searches.
+    Distances run over edges and the diagonals of neighbouring faces (1.3 % error). Each new sample is searched from
+    only as far as the farthest vertex was from those before, so the whole costs little more than a few searches.
 
     Parameters
     ----------
@@ -212,25 +211,7 @@ def farthest_geodesic(
     graph = geodesic_graph(mesh, 1)
     nearest = np.where(used, np.inf, -np.inf)
     while True:
-        if len(samples) <= _SEARCHES:
-            nearest = np.minimum(nearest, dijkstra(graph, indices=samples[-1], limit=nearest.max()))
-        else:
-            _spread(graph, nearest, samples[-1])
+        nearest = np.minimum(nearest, dijkstra(graph, indices=samples[-1], limit=nearest.max()))
         if len(samples) == count:
             return np.array(samples)
         samples.append(int(np.argmax(nearest)))
-
-
-def _spread(graph: csr_array, nearest: np.ndarray, source: int) -> None:
-    """Lower ``nearest`` (n,), in place, wherever ``source`` is nearer."""
-    start, neighbours, lengths = graph.indptr, graph.indices, graph.data
-    nearest[source] = 0
-    front = np.array([source])
-    while len(front):
-        count = start[front + 1] - start[front]
-        entry = np.arange(count.sum()) + np.repeat(start[front] - np.cumsum(count) + count, count)
-        vertex, distance = neighbours[entry], np.repeat(nearest[front], count) + lengths[entry]
-        nearer = distance < nearest[vertex]
-        vertex = vertex[nearer]
-        np.minimum.at(nearest, vertex, distance[nearer])
-        front = np.unique(vertex)
