@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kfmaps._arrays import Array, blocks, namespace, number
-from kfmaps.fmap.terms import GramTerm, check_same_count, rotate_gram
+from kfmaps.fmap.terms import Commutativity, GramTerm, check_same_count
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import KernelLike, kernel_matrix
 
@@ -34,7 +34,7 @@ def kernel_descriptor_term(
 
 
 @dataclass(frozen=True, eq=False)
-class HadamardCommutativity:
+class HadamardCommutativity(Commutativity):
     """The commutativity term of a whole kernel (equations 10 to 12); made by :func:`hadamard_term`."""
 
     kernel: KernelLike
@@ -42,8 +42,6 @@ class HadamardCommutativity:
     target: Basis
     descriptors_s: Array
     descriptors_t: Array
-    gram_s: Array
-    gram_t: Array
     block: int
 
     def apply(self, C: Array) -> Array:
@@ -55,32 +53,14 @@ class HadamardCommutativity:
             mixed = mixed + weighted_t[rows, :].T @ (product @ weighted_s)
         return C @ self.gram_s + self.gram_t @ C - 2 * mixed
 
-    def rhs(self) -> Array:
-        xp = namespace(self.gram_t)
-        shape = (self.gram_t.shape[0], self.gram_s.shape[0])
-        return xp.zeros(shape, dtype=self.gram_t.dtype, device=self.gram_t.device)
-
-    def diagonal(self) -> Array:
-        xp = namespace(self.gram_t)
-        own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
-        squares = (_weighted(basis) * basis.functions for basis in (self.target, self.source))
-        return own - 2 * self._coupling(*squares)
-
-    def constant(self) -> float:
-        return 0.0
-
-    def sides(self) -> tuple[Array, Array]:
-        return self.gram_t, self.gram_s
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
-        sides = ((self.target, U_t), (self.source, U_s))
-        return own - 2 * self._coupling(*((_weighted(basis) @ U) * (basis.functions @ U) for basis, U in sides))
-
-    def _coupling(self, squares_t: Array, squares_s: Array) -> Array:
+    def coupling(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        squares = []
+        for basis, U in ((self.target, U_t), (self.source, U_s)):
+            sides = _weighted(basis), basis.functions
+            squares.append(sides[0] * sides[1] if U is None else (sides[0] @ U) * (sides[1] @ U))
         cross = self.rhs()
-        for rows in blocks(squares_t.shape[0], self.block):
-            cross = cross + squares_t[rows, :].T @ (self._cross(rows) @ squares_s)
+        for rows in blocks(squares[0].shape[0], self.block):
+            cross = cross + squares[0][rows, :].T @ (self._cross(rows) @ squares[1])
         return cross
 
     def _cross(self, rows: slice) -> Array:
@@ -109,7 +89,7 @@ def hadamard_term(
         return total
 
     grams = squares(0), squares(1)
-    return HadamardCommutativity(kernel, source, target, descriptors_s, descriptors_t, *grams, block)
+    return HadamardCommutativity(*grams, kernel, source, target, descriptors_s, descriptors_t, block)
 
 
 def _weighted(basis: Basis) -> Array:

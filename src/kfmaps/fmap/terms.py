@@ -136,7 +136,37 @@ def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t:
 
 
 @dataclass(frozen=True, eq=False)
-class OperatorCommutativity:
+class Commutativity:
+    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²``: what does not hang on how the operators are multiplied with."""
+
+    gram_s: Array  # (k_s, k_s): ``Σᵢ X Xᵀ`` of both shapes
+    gram_t: Array
+
+    def coupling(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        """Return ``Σᵢ diag(X_tⁱ) diag(X_sⁱ)ᵀ`` of the operators rotated by ``U_t`` and ``U_s``, where given."""
+        raise NotImplementedError
+
+    def rhs(self) -> Array:
+        shape = (self.gram_t.shape[0], self.gram_s.shape[0])
+        return namespace(self.gram_t).zeros(shape, dtype=self.gram_t.dtype, device=self.gram_t.device)
+
+    def diagonal(self) -> Array:
+        diagonal = namespace(self.gram_t).linalg.diagonal
+        return diagonal(self.gram_t)[:, None] + diagonal(self.gram_s)[None, :] - 2 * self.coupling()
+
+    def constant(self) -> float:
+        return 0.0
+
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
+        return own - 2 * self.coupling(U_t, U_s)
+
+
+@dataclass(frozen=True, eq=False)
+class OperatorCommutativity(Commutativity):
     """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`operator_term`.
 
     ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the orientation
@@ -146,9 +176,7 @@ class OperatorCommutativity:
 
     left: Array  # (k_t · r, k_t): the target's slices, row a of slice i at a·r + i
     right: Array  # (r · k_s, k_s): the source's slices, one below the other
-    gram_s: Array
-    gram_t: Array
-    cross_diagonal: Array
+    cross_diagonal: Array  # zero where the slices are antisymmetric, as in every basis
     parity: int
 
     @property
@@ -162,27 +190,13 @@ class OperatorCommutativity:
         carried = xp.reshape(self.left @ xp.astype(C, self.left.dtype, copy=False), (k_t, self.count * k_s))
         return C @ self.gram_s + self.gram_t @ C - (2 * self.parity) * (carried @ self.right)
 
-    def rhs(self) -> Array:
-        return namespace(self.gram_t).zeros_like(self.cross_diagonal)
-
-    def diagonal(self) -> Array:
-        xp = namespace(self.gram_t)
-        own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
-        return own - 2 * self.cross_diagonal  # zero where the slices are antisymmetric
-
-    def constant(self) -> float:
-        return 0.0
-
-    def sides(self) -> tuple[Array, Array]:
-        return self.gram_t, self.gram_s
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        xp = namespace(self.gram_t)
-        k_t, k_s = self.gram_t.shape[0], self.gram_s.shape[0]
+    def coupling(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        if U_t is None or U_s is None:
+            return self.cross_diagonal
+        xp, k_t, k_s = namespace(self.gram_t), U_t.shape[0], U_s.shape[0]
         of_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
         of_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
-        own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
-        return own - 2 * (of_t.T @ of_s)  # zero where the slices are antisymmetric, in every basis
+        return of_t.T @ of_s
 
 
 def operator_term(slices_s: Array, slices_t: Array, parity: int = 1, single: bool = False) -> OperatorCommutativity:
@@ -217,7 +231,7 @@ def operator_term(slices_s: Array, slices_t: Array, parity: int = 1, single: boo
     grams = right.T @ right, flat_t.T @ flat_t
     if single:
         left, right = xp.astype(left, xp.float32), xp.astype(right, xp.float32)
-    return OperatorCommutativity(left, right, *grams, cross, parity)
+    return OperatorCommutativity(*grams, left, right, cross, parity)
 
 
 @dataclass(frozen=True, eq=False)
