@@ -36,9 +36,9 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.matching.finish import refine_map
 from kfmaps.matching.fit import fit
 from kfmaps.matching.match import match
-from kfmaps.matching.postprocess import refine_map
 from kfmaps.shape import prepare
 
 SIZES, LARGE, HUGE = (5_000, 20_000, 80_000), 300_000, 1_000_000

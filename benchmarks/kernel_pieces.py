@@ -25,7 +25,6 @@ from kfmaps.matching import (
     finish,
     initial_maps,
     landmark_evidence,
-    postprocess,
     registration_refine,
     sample_pair,
 )
@@ -111,7 +110,7 @@ def kernel_guidance(sharpness: float, dimensions: int, kind: str = "SHOT") -> Ca
 
 def guided(made: Callable[..., Any]) -> list[Patch]:
     """The patches that put a guidance into the search and into the refinement after it."""
-    users = (sample_pair, landmark_evidence, registration_refine, postprocess)
+    users = (sample_pair, landmark_evidence, registration_refine, finish)
     return [(module, "descriptor_guidance", made) for module in users]
 
 

@@ -35,8 +35,8 @@ from kfmaps.batch.cache import load_record, save_record
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.io import read_vertex_numbers
+from kfmaps.matching.finish import refine_map
 from kfmaps.matching.fit import fit
-from kfmaps.matching.postprocess import refine_map
 from kfmaps.settings.merge import read_settings
 
 SETS = ("FAUST_r", "TOSCA_r", "SHREC19_r")

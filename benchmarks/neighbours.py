@@ -25,8 +25,8 @@ from kfmaps.fmap.nearest import nearest
 from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.matching.finish import refine_map
 from kfmaps.matching.fit import fit
-from kfmaps.matching.postprocess import refine_map
 from kfmaps.shape import prepare
 
 

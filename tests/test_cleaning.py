@@ -33,7 +33,7 @@ GUARDS = (
     "kfmaps.geometry.connectivity",
     "kfmaps.geometry.topology",
     "kfmaps.matching.match",
-    "kfmaps.matching.postprocess",
+    "kfmaps.matching.finish",
     "kfmaps.matching.reindexing",
     "kfmaps.shape",
 )

@@ -20,8 +20,8 @@ from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
 from kfmaps.kernels.landmark_selection import farthest_descriptors
+from kfmaps.matching.finish import refine_map, reseed
 from kfmaps.matching.fit import fit, fit_points
-from kfmaps.matching.postprocess import refine_map, reseed
 from kfmaps.shape import _local_descriptors, prepare, sample_shape
 
 GUARDS = (
@@ -34,7 +34,7 @@ GUARDS = (
     "kfmaps.geometry.sampling",
     "kfmaps.kernels.landmark_selection",
     "kfmaps.matching.fit",
-    "kfmaps.matching.postprocess",
+    "kfmaps.matching.finish",
     "kfmaps.shape",
 )
 

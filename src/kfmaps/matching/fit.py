@@ -1,26 +1,30 @@
 """One fit: descriptors, kernel features, energy, the minimiser.
 
-What comes after it, points and their refinement, is in :mod:`kfmaps.matching.postprocess`.
+What comes after it, points and their refinement, is in :mod:`kfmaps.matching.finish`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kfmaps._arrays import Array, refuse, seed_of, to_numpy
+from kfmaps._arrays import Array, like, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
-from kfmaps.fmap.solvers import Solution
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.losses import Loss, RobustData
+from kfmaps.fmap.minimize import MinimizeOptions, Objective, minimize
+from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
+from kfmaps.fmap.solvers import CG, Solution
+from kfmaps.fmap.terms import laplacian_term
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import describe_kernel
 from kfmaps.matching.assemble import FitProblem, assemble
 from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_for_fit, user_descriptors
-from kfmaps.matching.robust_weights import robust_weights
 from kfmaps.matching.solve import Minimised, solve_problem
 from kfmaps.shape import Shape
 
@@ -186,3 +190,46 @@ def fit_points(
     if not config.formulation.weighs_data:
         return FitPoints(small, bases, used)
     return FitPoints(small, bases, *robust_weights(used, bases, config))
+
+
+def robust_weights(
+    descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config
+) -> tuple[Descriptors, np.ndarray]:
+    """Return ``descriptors`` times square roots of the weights of a robust loss, and the weights (g,).
+
+    A wrong landmark spoils every value of a kernel of all descriptors. With the linear kernel the energy is a sum over
+    descriptors, and a robust loss of each landmark's, or of each descriptor, is minimised by reweighting a small fit
+    (:class:`kfmaps.fmap.losses.RobustData`). Descriptors of no landmark keep their size when the loss is per landmark.
+    """
+    asked = config.formulation
+    if asked.loss_group == "landmark":
+        groups = descriptors.landmark
+        if not (groups >= 0).any():
+            raise refuse("loss per landmark", "landmarks with maps of their own", "none", "take it per descriptor")
+    else:
+        groups = np.arange(descriptors.source.shape[1])
+    functions = 30  # size of the small fit: enough to tell a wrong landmark, a tenth of the work of the fit itself
+    k = min(functions, config.basis.n_eigenfunctions)
+    small = [basis.truncate(k) for basis in bases]
+    sides = (descriptors.source, descriptors.target)
+    P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]
+    X = [
+        unpack_operators(multiplication_operators(b, D, threads=config.threads))
+        for b, D in zip(small, sides, strict=True)
+    ]
+    weights = config.weights
+    against = weights.descriptors or 1.0
+    data = RobustData(P[0], P[1], groups, Loss("squared"), X[0], X[1], weights.commutativity / against)
+    alone = Energy(
+        {"laplacian": laplacian_term(small[0], small[1])}, {"laplacian": max(weights.laplacian / against, 1e-6)}
+    )
+    how = MinimizeOptions(CG(rtol=1e-4, max_iter=500), max_outer_iter=asked.max_outer_iter, rtol=1e-3)
+    C = minimize(Objective(alone, {"data": (1.0, data)}), replace(how, max_outer_iter=1)).value
+    robust = replace(data, loss=Loss(asked.loss)).scaled(C, asked.loss_scale)
+    C = minimize(Objective(alone, {"data": (1.0, robust)}), how, C).value
+    columns = robust.weights(C)
+    columns = np.where(groups < 0, 1.0, columns / max(1.0, float(columns[groups >= 0].max())))
+    root = like(np.sqrt(columns), descriptors.source)[None, :]
+    scaled = replace(descriptors, source=descriptors.source * root, target=descriptors.target * root)
+    first = np.unique(groups, return_index=True)
+    return scaled, columns[first[1][first[0] >= 0]]

@@ -29,8 +29,7 @@ from kfmaps.matching.assemble import (
 )
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
 from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors
-from kfmaps.matching.fit import Fit, fit_of_problem
-from kfmaps.matching.robust_weights import robust_weights
+from kfmaps.matching.fit import Fit, fit_of_problem, robust_weights
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
 from kfmaps.matching.score import Candidate
 from kfmaps.matching.self_maps import self_maps
