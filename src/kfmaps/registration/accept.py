@@ -12,6 +12,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.confidence import build_local_distortion
 from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import vertex_areas
+from kfmaps.registration.torn_patches import rejoin_torn_patches
 from kfmaps.shape import Shape
 
 _MAX_GAP = 0.02
@@ -72,7 +73,8 @@ def register_map(
     target's area (distances to the surroundings are kept clearly worse than before) is made once more with the map held
     fast there; one that lets sizes change, as between shapes of other proportions, only where it would not be kept. Of
     the two the last is kept for which the evidence speaks: that worsens little, or improves at least half as much as it
-    worsens.
+    worsens. Where small patches of the map are torn off even so, the fit begins anew with these sent to where their
+    surroundings go, and is kept if it is trusted more.
 
     ``points (n_t,)``: the map; ``config``: its ``registration``, which is left out where that or the refinement is
     ``None``; ``landmarks (l, 2)``: pairs "source vertex, target vertex", which hold softly, or not at all where
@@ -90,7 +92,7 @@ def register_map(
     areas = vertex_areas(target.mesh)
     areas = areas / areas.sum()
 
-    def tried(held: np.ndarray | None) -> tuple[RegisteredMap, RegistrationReport]:
+    def tried(held: np.ndarray | None, points: np.ndarray = points) -> tuple[RegisteredMap, RegistrationReport]:
         stage = "non-rigid fit" if held is None else "non-rigid fit, held"
         with clock(stage):
             report = partial(clock.report, stage)
@@ -116,7 +118,12 @@ def register_map(
         second, again = tried(held)
         if again.accepted or not told.accepted:
             best, kept = second, again
-    return best if kept.accepted else RegisteredMap(points, None, None, trust, kept)
+    best = best if kept.accepted else RegisteredMap(points, None, None, trust, kept)
+    rejoined = rejoin_torn_patches(best.target_to_source, source.mesh, target.mesh)
+    if np.array_equal(rejoined, best.target_to_source):
+        return best
+    mended, again = tried(None, rejoined)
+    return mended if again.accepted and mended.local_confidence @ areas > best.local_confidence @ areas else best
 
 
 def _less_exact(landmarks: np.ndarray | None, points: np.ndarray, vertices: np.ndarray) -> bool:
