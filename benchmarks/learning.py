@@ -37,7 +37,7 @@ from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.io import read_vertex_numbers
 from kfmaps.matching.finish import refine_map
 from kfmaps.matching.fit import fit
-from kfmaps.settings.merge import read_settings
+from kfmaps.settings import read_settings
 
 SETS = ("FAUST_r", "TOSCA_r", "SHREC19_r")
 REPORTED = tuple(f"tr_reg_{i:03d}" for i in range(40, 80))

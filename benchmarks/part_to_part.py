@@ -20,7 +20,7 @@ import numpy as np
 from automatic import RIGHT, Job, chosen_pairs, loaded, pair_options
 
 import kfmaps
-from kfmaps.datasets.pairs import largest_piece
+from kfmaps.datasets import largest_piece
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 
 KEPT, COMMON = (0.55, 0.8), (0.35, 0.75)

@@ -32,7 +32,7 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps.cli.evaluation import read_part_truth
 from kfmaps.config import Partial
-from kfmaps.datasets.pairs import largest_piece
+from kfmaps.datasets import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.matching.partial.candidates import PartCandidate, compare_alternatives, make_candidate, margin

@@ -19,7 +19,7 @@ from scipy.spatial import Delaunay
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.datasets.pairs import largest_piece
+from kfmaps.datasets import largest_piece
 from kfmaps.geometry.geodesics import farthest_geodesic, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area
 

@@ -20,7 +20,7 @@ import numpy as np
 from automatic import RIGHT, Job, chosen_pairs, lines, loaded, pair_options
 
 import kfmaps
-from kfmaps.datasets.pairs import largest_piece
+from kfmaps.datasets import largest_piece
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.geometry.geodesics import farthest_geodesic, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas

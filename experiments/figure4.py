@@ -20,7 +20,7 @@ from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.viz import ERROR_MAP, View, automatic_view, draw_surface, following_view, position_colors
-from kfmaps.viz.colors import percent_ticks
+from kfmaps.viz.figures import percent_ticks
 from methods import literal, obcs12_regularised
 from pair_errors import fit_pair, raw_map
 

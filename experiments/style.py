@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from kfmaps.cli.words import UNIT
-from kfmaps.viz.colors import percent_ticks
+from kfmaps.viz.figures import percent_ticks
 
 # Okabe and Ito (2008).
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"

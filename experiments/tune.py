@@ -22,7 +22,7 @@ from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.cli.words import UNIT
 from kfmaps.config import Config
 from kfmaps.io import read_text
-from kfmaps.settings.merge import preset, read_settings, settings_text, with_assignments
+from kfmaps.settings import preset, read_settings, settings_text, with_assignments
 
 DEFAULT = ("bandwidth_scale=0.1,0.3,1.0", "weights.laplacian=0.1,1.0,10.0")
 

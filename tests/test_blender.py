@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from characters import BODY, character
+from kfmaps.datasets import ExamplePair, posed_pair
 from kfmaps.datasets.creature import DANCE
-from kfmaps.datasets.pairs import ExamplePair, posed_pair
 from kfmaps.fmap.precise import PointMap
 from kfmaps.io.bake import encode_png
 from kfmaps.io.convert import as_map

@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 from characters import BODY, character
 from commandline import run
 from kfmaps._arrays import InvalidInput
+from kfmaps.datasets import ExamplePair, posed_pair
 from kfmaps.datasets.creature import DANCE
-from kfmaps.datasets.pairs import ExamplePair, posed_pair
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_normals
 from kfmaps.io import load_map, read_mesh_file, save_map, write_mesh

@@ -8,8 +8,8 @@ from scipy.spatial import KDTree
 
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
+from kfmaps.datasets import ExamplePair, largest_piece
 from kfmaps.datasets.creature import CREATURE, SYMMETRIC
-from kfmaps.datasets.pairs import ExamplePair, largest_piece
 from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, vertex_normals

@@ -10,7 +10,7 @@ import pytest
 import kfmaps
 from conftest import exists
 from kfmaps.cli.main import COMMANDS
-from kfmaps.settings.options import OPTIONS
+from kfmaps.settings import OPTIONS
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").glob("*.md"))

@@ -31,7 +31,7 @@ from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import Gaussian
-from kfmaps.settings.merge import read_settings, settings_text
+from kfmaps.settings import read_settings, settings_text
 from kfmaps.viz import surfaces
 from methods import no17, obcs12, paper, recommended
 from pair_errors import Row, fingerprint, fit_pair, pair_rows, raw_map

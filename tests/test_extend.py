@@ -21,7 +21,7 @@ from kfmaps.io import load_map
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import fit
 from kfmaps.matching.match import match
-from kfmaps.settings.merge import settings_text
+from kfmaps.settings import settings_text
 from kfmaps.shape import Shape, prepare
 
 GUARDS = ("kfmaps._records", "kfmaps.matching.assemble", "kfmaps.matching.features")

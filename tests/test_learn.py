@@ -16,7 +16,7 @@ from kfmaps.io import write_mesh
 from kfmaps.kernels.kernels import Gaussian, Linear, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric
 from kfmaps.matching.match import match
-from kfmaps.settings.merge import read_settings, settings_text
+from kfmaps.settings import read_settings, settings_text
 from kfmaps.shape import prepare
 
 torch = pytest.importorskip("torch")

@@ -12,7 +12,7 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.cli.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
-from kfmaps.datasets.pairs import largest_piece
+from kfmaps.datasets import largest_piece
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area

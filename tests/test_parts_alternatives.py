@@ -10,7 +10,7 @@ from scipy.spatial import KDTree
 
 from kfmaps import datasets
 from kfmaps.config import Config, Partial
-from kfmaps.datasets.pairs import largest_piece
+from kfmaps.datasets import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas

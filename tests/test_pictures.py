@@ -15,8 +15,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.viz import surfaces
 from kfmaps.viz.camera import fit_rotation
-from kfmaps.viz.colors import _oklab_to_rgb
-from kfmaps.viz.figures import make_transparent
+from kfmaps.viz.figures import _oklab_to_rgb, make_transparent
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
 FRONT = pictures.view_from((0, 0, 1))

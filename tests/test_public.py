@@ -18,7 +18,7 @@ import pytest
 
 import kfmaps
 from conftest import blob
-from kfmaps.datasets.pairs import ExamplePair
+from kfmaps.datasets import ExamplePair
 
 STUB = Path(str(kfmaps.__file__)).with_suffix(".pyi")
 API = Path(__file__).parent.parent / "docs" / "api"

@@ -11,8 +11,8 @@ import pytest
 
 import kfmaps
 from kfmaps._arrays import NotConverged
+from kfmaps.datasets import ExamplePair, posed_pair
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
-from kfmaps.datasets.pairs import ExamplePair, posed_pair
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.geometry.mesh import Mesh, unit_area

@@ -33,7 +33,7 @@ from kfmaps.viz import (
     true_views,
 )
 from kfmaps.viz.camera import _LIKENESS, fit_rotation
-from kfmaps.viz.grids import _LABEL
+from kfmaps.viz.matches import _LABEL
 
 THRESHOLDS = np.linspace(0, 0.25, 11)
 

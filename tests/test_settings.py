@@ -23,8 +23,16 @@ from kfmaps.fmap.solvers import CG, Direct
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.kernels.transformed import Metric
-from kfmaps.settings.merge import PRESETS, preset, read_settings, settings_text, with_assignments
-from kfmaps.settings.options import OPTIONS, Chosen, with_settings
+from kfmaps.settings import (
+    OPTIONS,
+    PRESETS,
+    Chosen,
+    preset,
+    read_settings,
+    settings_text,
+    with_assignments,
+    with_settings,
+)
 
 FAR = Config.paper()
 """A base that differs from the recommended settings in most things."""

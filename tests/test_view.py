@@ -33,8 +33,8 @@ from kfmaps.io.record import Picture
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
 from kfmaps.viz import result_pages
-from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
+from kfmaps.viz.figures import position_colors
 from kfmaps.viz.result_pages import _match_summary, _rotation_by_map, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"

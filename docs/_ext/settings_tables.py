@@ -9,7 +9,7 @@ from typing import Any
 
 from kfmaps._records import Setting, walk
 from kfmaps.config import FORMULATIONS, KINDS, Config
-from kfmaps.settings.merge import PRESETS, preset, text_of
+from kfmaps.settings import PRESETS, preset, text_of
 
 BEGIN, END = "<!-- begin: made by docs/_ext/settings_tables.py -->", "<!-- end -->"
 

@@ -31,9 +31,8 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text
 from kfmaps.viz import Curve, curves_figure, mean_curve, save_figure
-from kfmaps.viz.colors import error_limit
 from kfmaps.viz.document import data_address, environment, policy
-from kfmaps.viz.figures import make_transparent
+from kfmaps.viz.figures import error_limit, make_transparent
 from kfmaps.viz.matches import values_figure
 from kfmaps.viz.result_pages import match_page
 

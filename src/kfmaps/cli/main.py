@@ -202,7 +202,7 @@ def _other_option(error: Exception, context: Any) -> str:
     parameters = () if context is None else context.command.params
     if option is None or all(parameter.name != "assign" for parameter in parameters):
         return ""
-    from kfmaps.settings.merge import similar_settings
+    from kfmaps.settings import similar_settings
 
     found = " or ".join(f"--set {path}=VALUE" for path in similar_settings(option))
     return f"there is no option {option}; use {found}" if found else ""

@@ -21,7 +21,7 @@ from kfmaps._records import JsonObject, short_repr
 from kfmaps.io import atomic_output
 from kfmaps.learn.model import Model, TrainingOptions, pair_loss, point_error
 from kfmaps.learn.pairs import TrainingPair
-from kfmaps.settings.merge import FORMAT, read_learned
+from kfmaps.settings import FORMAT, read_learned
 from kfmaps.viz.curves import COLORS
 from kfmaps.viz.figures import TEXT, style_axes
 

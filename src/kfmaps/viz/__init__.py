@@ -1,11 +1,9 @@
 """Pictures of surfaces and maps with matplotlib alone: no display and no graphics system is needed."""
 
 from kfmaps.viz.camera import View, automatic_view, following_view, true_views, view_from
-from kfmaps.viz.colors import ERROR_MAP, error_colors, error_limit, position_colors
 from kfmaps.viz.curves import Curve, curves_figure, mean_curve
-from kfmaps.viz.figures import picture_format, save_figure
-from kfmaps.viz.grids import Panel, grid_figure
-from kfmaps.viz.matches import match_figure, painted_errors
+from kfmaps.viz.figures import ERROR_MAP, error_colors, error_limit, picture_format, position_colors, save_figure
+from kfmaps.viz.matches import Panel, grid_figure, match_figure, painted_errors
 from kfmaps.viz.surfaces import draw_surface
 
 __all__ = [

@@ -15,8 +15,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps._records import short_repr
 from kfmaps.cli.words import UNIT
 from kfmaps.fmap.evaluate import error_curve
-from kfmaps.viz.colors import percent_ticks
-from kfmaps.viz.figures import TEXT, NotebookFigure, style_axes
+from kfmaps.viz.figures import TEXT, NotebookFigure, percent_ticks, style_axes
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")

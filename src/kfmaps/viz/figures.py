@@ -1,4 +1,4 @@
-"""What all figures share: formats, the colour bar of errors, and colours carried over a map."""
+"""What all figures share: formats, colours of places and of errors, and the colour bar."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ import io
 from pathlib import Path
 from typing import IO
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.ticker import FuncFormatter
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import check, check_positive, refuse
+from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io.text import check_suffix
-from kfmaps.viz.colors import ERROR_MAP, percent_ticks
 
 _FORMATS = ("png", "svg", "pdf")
 _DPI = 160
@@ -104,3 +106,80 @@ def add_error_bar(
     )
     bar.set_label(label, color=TEXT, fontsize=0.9 * text)
     bar.ax.tick_params(colors=TEXT, labelsize=0.8 * text)
+
+
+ERROR_MAP = LinearSegmentedColormap.from_list(
+    "kfmaps errors", ["#ffffff", "#fde0c5", "#f7a17a", "#e0503f", "#a5142f", "#560723"]
+)
+"""White at zero and darker all the way up, so that it reads without colour vision and in grey too."""
+
+_LIGHTNESS, _LIGHTNESS_SPAN, _CHROMA = 0.79, 0.10, 0.17
+"""OKLab values of the place colours: the middle lightness, how far it varies, and how far a and b do."""
+
+
+def _oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
+    """Return sRGB in [0, 1] of OKLab colours (n, 3), cut off where a screen cannot show them (Ottosson 2020)."""
+    cones = lab @ np.array(
+        [
+            [1, 1, 1],
+            [0.3963377774, -0.1055613458, -0.0894841775],
+            [0.2158037573, -0.0638541728, -1.2914855480],
+        ]
+    )
+    linear = cones**3 @ np.array(
+        [
+            [4.0767416621, -1.2684380046, -0.0041960863],
+            [-3.3077115913, 2.6097574011, -0.7034186147],
+            [0.2309699292, -0.3413193965, 1.7076147010],
+        ]
+    )
+    linear = np.clip(linear, 0, 1)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def position_colors(mesh: Mesh) -> np.ndarray:
+    """Return a colour for each place of a shape, sRGB in [0, 1], (n, 3).
+
+    Along the file's axis of the largest extent colours run from blue to yellow; the other two share green
+    to magenta and dark to light, so that left and right and front and back differ (OKLab). Units, and where
+    the shape lies, do not matter.
+    """
+    extent = np.ptp(mesh.vertices, axis=0)
+    weights = vertex_areas(mesh) if len(mesh.faces) else np.ones(len(mesh.vertices))
+    centred = mesh.vertices - np.average(mesh.vertices, axis=0, weights=weights)
+    deviation = np.sqrt(np.average(centred**2, axis=0, weights=weights))
+    place = centred / np.where(deviation > 0, deviation, 1)
+    # Most of a shape is near its middle; bent so, it takes up most of the colours.
+    place = place / np.sqrt(1 + place**2)
+    longest, middle, shortest = place[:, np.argsort(-extent, kind="stable")].T
+    lightness = _LIGHTNESS + _LIGHTNESS_SPAN / 2 * (longest - middle + shortest)
+    return _oklab_to_rgb(np.stack([lightness, _CHROMA * (0.8 * middle + 0.6 * shortest), _CHROMA * longest], axis=1))
+
+
+def error_limit(errors: np.ndarray) -> float:
+    """Return where the colours of ``errors`` end: their 99th percentile, rounded up to 1, 2, 3, 4, 6 or 8."""
+    top = float(np.percentile(errors, 99))
+    if not top > 0:
+        return 0.01
+    power = 10.0 ** np.floor(np.log10(top))
+    return next(float(step * power) for step in (1, 2, 3, 4, 6, 8, 10) if step * power >= top * (1 - 1e-12))
+
+
+def percent_ticks() -> FuncFormatter:
+    """Return the format of an axis of errors, which has units of √area, as per cent."""
+    return FuncFormatter(lambda error, _: f"{100 * error:g}")
+
+
+def error_colors(errors: np.ndarray, limit: float | None = None) -> np.ndarray:
+    """Return colours of errors: white at 0, through red, to the darkest at ``limit`` and above, sRGB (n, 3).
+
+    ``errors (n,)``: not negative, in units of √area; ``limit``: in the same units, by default :func:`error_limit`.
+
+    Raises
+    ------
+    InvalidInput
+        When an error is not finite or ``limit`` is not above zero.
+    """
+    errors = check(np.asarray(errors, dtype=np.float64), "errors", shape=(None,), remedy="give one per vertex")
+    limit = check_positive(error_limit(errors) if limit is None else limit, "limit")
+    return ERROR_MAP(np.clip(errors / limit, 0, 1))[:, :3]

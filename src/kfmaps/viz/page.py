@@ -14,8 +14,8 @@ from kfmaps.fmap.evaluate import area_distortion
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import projected_uv
 from kfmaps.viz.camera import broad_side, rotation_between
-from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import encode_floats, encode_integers
+from kfmaps.viz.figures import position_colors
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, object]:

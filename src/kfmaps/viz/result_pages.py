@@ -25,9 +25,8 @@ from kfmaps.io.export import textured
 from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import fit_rotation
-from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import data_address, document, encode_floats, encode_integers
-from kfmaps.viz.figures import make_transparent
+from kfmaps.viz.figures import make_transparent, position_colors
 from kfmaps.viz.matches import vertex_errors
 from kfmaps.viz.page import (
     check_up,

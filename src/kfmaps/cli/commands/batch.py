@@ -21,8 +21,7 @@ from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent, plural
 from kfmaps.config import Config
 from kfmaps.io.atomic import write_text
-from kfmaps.settings.merge import settings_text
-from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings import Chosen, settings_text, with_settings
 
 _TOML = "settings.toml"  # in the output folder, for ``kfmaps match --config``
 FAILED, INTERRUPTED = 1, 130

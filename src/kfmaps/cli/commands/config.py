@@ -11,8 +11,7 @@ from kfmaps.cli.options import Force, Json
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config, as_dict
 from kfmaps.io.atomic import check_output, write_text
-from kfmaps.settings.merge import settings_text
-from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings import Chosen, settings_text, with_settings
 
 
 @with_settings

@@ -45,7 +45,7 @@ from kfmaps.io import check_output, read_mesh
 from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.landmark_review import ReviewServer
 from kfmaps.viz.page import check_up

@@ -22,8 +22,7 @@ from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 from kfmaps.io import atomic_output, check_output, read_mesh, read_vertex_numbers
 from kfmaps.io.atomic import write_text
 from kfmaps.io.text import check_suffix
-from kfmaps.settings.merge import settings_text
-from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings import Chosen, settings_text, with_settings
 from kfmaps.shape import Shape, prepare
 
 if TYPE_CHECKING:

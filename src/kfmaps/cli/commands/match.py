@@ -29,7 +29,7 @@ from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.result import Match
-from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings import Chosen, with_settings
 from kfmaps.shape import prepare_both
 
 _SIDES = ("source", "target")

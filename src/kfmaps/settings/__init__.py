@@ -1,1 +1,0 @@
-"""Settings on the command line: presets, TOML files, flags and ``--set``, made into a ``Config``."""
