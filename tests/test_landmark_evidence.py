@@ -35,8 +35,9 @@ from kfmaps.registration.alternating_registration import (
     alternating_registration,
     proxy_pair,
 )
+from kfmaps.registration.deformable import LANDMARK_PULL, deformable_mesh, landmark_pull
 from kfmaps.registration.evidence import coarse_copy
-from kfmaps.registration.nonrigid_icp import _LANDMARK_PULL, _SCALED_LANDMARK_PULL, NonRigid, mesh_pair
+from kfmaps.registration.nonrigid_icp import _SCALED_LANDMARK_PULL, NonRigid
 from kfmaps.shape import mirror_image
 
 GUARDS = (
@@ -256,25 +257,25 @@ def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -
     assert 1 - ways[100.0, near] < 0.7 * (1 - ways[0.0, near])
     assert ways[100.0, far] > 0.9
     assert ways[0.0, far] < 0.5
-    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", (_LANDMARK_PULL[0], _SCALED_LANDMARK_PULL[1]))
+    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", (LANDMARK_PULL[0], _SCALED_LANDMARK_PULL[1]))
     assert 1 - followed(near, loose) > 1.3 * (1 - ways[100.0, near])
-    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", _LANDMARK_PULL)
+    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", LANDMARK_PULL)
     assert followed(far, loose) < 0.5
 
 
 def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
     """Discs have area 1 each; at the distance from which a pull fades a quarter of it is left."""
     body = unit_area(blob(250))
-    pair = mesh_pair(nonrigid.deformable_mesh(body), body)
-    at = np.array([[3, 3], [200, 200]])
-    discs = nonrigid._discs(pair, at)
-    np.testing.assert_allclose(discs.sum(axis=0), 1.0)
-    for fading in (_LANDMARK_PULL[1], _SCALED_LANDMARK_PULL[1]):
+    at, rest = np.array([3, 200]), deformable_mesh(body)
+    np.testing.assert_allclose(landmark_pull(rest, at, body.vertices[at]).discs.sum(axis=0), 1.0)
+    for weight, fading in (LANDMARK_PULL, _SCALED_LANDMARK_PULL):
+        pull = landmark_pull(rest, at, body.vertices[at], (weight, fading))
         for off, left in ((0.0, 1.0), (fading, 0.25), (3 * fading, 0.01)):
             x = body.vertices + np.array([0.0, 0.0, off])
-            term = nonrigid._marked(pair, at, discs, x, _SCALED_LANDMARK_PULL[0], fading)
-            np.testing.assert_allclose(term.weights.sum(), 2 * _SCALED_LANDMARK_PULL[0] * left)
+            (term,) = pull.terms(x, 0.7)
+            np.testing.assert_allclose(term.weights.sum(), 2 * 0.7 * weight * left)
             np.testing.assert_allclose(term.places - x, np.broadcast_to((0, 0, -off), x.shape), atol=1e-9)
+    assert landmark_pull(rest, at[:0], body.vertices[:0]).terms(body.vertices, 1.0) == []
 
 
 @pytest.mark.parametrize("lead", [LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE])

@@ -15,6 +15,7 @@ from kfmaps.config import Config, Partial
 from kfmaps.datasets import largest_piece
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
+from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area
 from kfmaps.io import load_map
 from kfmaps.matching import match as matching
@@ -322,14 +323,39 @@ def test_two_parts_have_a_calibration_of_their_own(monkeypatch, which, word):
 
     def place(*_, landmarks, **__):
         asked.append(len(landmarks))
-        return SimpleNamespace(registration=bent, overlap=overlap, scores=(score,), margin=3.0)
+        # Errors at the landmarks at which they support nothing.
+        far = shape.mesh.vertices + np.array([0.0, 0.0, 0.09])
+        return SimpleNamespace(registration=bent, overlap=overlap, scores=(score,), margin=3.0, unguided=far)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
     found = match_partial(shape, shape, SMALL, which, landmarks=np.array([[3, 3], [50, 50]]))
     numbers = PART if which == "target" else SCORE.part.calibration_of_two
-    assert found.confidence == probability(score, 3.0, numbers=numbers)
+    assert found.confidence == pytest.approx(probability(score, 3.0, numbers=numbers), abs=1e-3)
     assert found.verdict == word
     assert asked == ([2, 0] if word == "unlikely" else [2])
+
+
+def test_landmarks_that_a_placement_keeps_without_them_support_it(monkeypatch):
+    """As those of whole shapes do, by the share of what is common that lies near them, in the unit of the whole."""
+    mesh, numbers = blob(200), SCORE.part.calibration_of_two
+    shape = prepare(mesh, SMALL, name="a")
+    vertices, half, scale = shape.mesh.vertices, np.arange(200) < 100, 0.5
+    places = vertex_point_map(np.arange(200), shape.mesh)
+    overlap = SimpleNamespace(part=half * 1.0, whole=half * 1.0, on_whole=places, on_part=places)
+    bent = SimpleNamespace(scale=scale, vertices=vertices)
+    unguided, marks = vertices.copy(), np.array([[3, 3], [50, 50], [90, 90]])
+    unguided[50] += [0.0, 0.0, 0.15]  # contradicted, so named; the others are where they belong
+    one = SimpleNamespace(registration=bent, overlap=overlap, scores=(20.0,), margin=0.0, unguided=unguided)
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: one)
+    found = match_partial(shape, shape, SMALL, "both", landmarks=marks)
+    near = (scale * geodesic_distances(shape.mesh, marks[:, 1]) < SCORE.landmark_radius).any(axis=0)
+    areas = shape.basis.mass * half
+    right = 1 / (1 + np.exp((0.05 - SCORE.landmark_error_middle) / SCORE.landmark_error_width))
+    support = (areas[near].sum() / areas.sum()) ** 2 * right
+    assert 0.1 < support < 0.8
+    assert found.confidence == pytest.approx(probability(20.0, 0.0, support=support, numbers=numbers), rel=1e-6)
+    assert found.verdict == verdict(20.0, 0.0, support=support, numbers=numbers)
+    assert found.rejected_landmarks.tolist() == [1]
 
 
 def test_distances_decide_between_places_that_look_alike(rng):

@@ -177,7 +177,7 @@ def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(
     results = {
         "_likely_placements": [],
         "compare_alternatives": found,
-        "_register_fully": None,
+        "_register_fully": SimpleNamespace(vertices=np.eye(3)),
         "find_overlap": None,
         "margin": 1.0,
     }
@@ -214,12 +214,12 @@ def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_sc
         off[wrong if len(asked) == 1 else then] = 1.01 * SCORE.part.max_landmark_error
         moved = whole.vertices + off * [1.0, 0.0, 0.0]
         score = first if len(asked) == 1 else second
-        return SimpleNamespace(registration=SimpleNamespace(vertices=moved), scores=(score,), margin=9.0)
+        return SimpleNamespace(unguided=moved, scores=(score,), margin=9.0)
 
-    found, named = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration, two=False)
+    found, errors = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration, two=False)
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])
     assert found.scores[0] == (second if again else first)
-    assert np.flatnonzero(named).tolist() == (then if again else wrong)
+    assert np.flatnonzero(errors > SCORE.part.max_landmark_error).tolist() == (then if again else wrong)
 
 
 def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better(monkeypatch):

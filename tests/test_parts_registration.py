@@ -1,5 +1,7 @@
 """A part bent onto a whole, and what they have in common, where both are known: a piece of a hilly plane."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -103,12 +105,29 @@ def test_all_vertices_follow_a_coarse_copy(shapes, laid):
     at = own[copy.vertices]
     pair = PartPair(sampled(copy.mesh, np.arange(len(at))), on)
     coarse = register_part(pair, size, whole.vertices[at], on.surface.normals[at], np.ones(len(at)))
-    found = refine_registration(coarse, copy, part, on)
+    found = refine_registration(coarse, copy, part, on, np.zeros((0, 2), dtype=int))
     assert len(coarse.vertices) < len(own) // 2
     assert np.linalg.norm(found.vertices - half.vertices, axis=1).mean() < 2e-3
     assert found.gap < 1e-3
     assert found.scale == size
     assert found.rest.vertices == pytest.approx(size * part.vertices)
+
+
+@pytest.mark.parametrize(("off", "least", "most"), [(0.03, 0.2, 1.0), (0.4, 0.0, 0.05)])
+def test_a_landmark_takes_the_part_along_unless_it_is_far_off(shapes, laid, off, least, most):
+    """By a share of the way; without it the part lies where it was cut."""
+    whole, half, own = shapes
+    _, on, part, size = laid
+    away = np.linalg.norm(half.vertices - half.vertices[40], axis=1)
+    end, at = int(abs(away - off).argmin()), np.arange(len(own))
+    pair = PartPair(replace(sampled(part, np.roll(at, -40)), n_landmarks=1), on)
+    pair = replace(pair, whole=replace(on, samples=own[[end]], n_landmarks=1))
+    rows = own[pair.part.samples]
+    placed = size, whole.vertices[rows], on.surface.normals[rows], np.ones(len(rows))
+    for one, low, high in ((pair, least, most), (pair.unmarked, -0.02, 0.02)):
+        way = half.vertices[end] - half.vertices[40]
+        moved = (register_part(one, *placed).vertices[40] - half.vertices[40]) @ way / (way @ way)
+        assert low <= moved <= high
 
 
 @pytest.mark.parametrize("factor", [0.8, 1.25])

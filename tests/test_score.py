@@ -94,7 +94,7 @@ def test_the_tables_name_all_weights() -> None:
 
 def test_landmarks_that_a_part_contradicts_cost_more_of_two_parts() -> None:
     assert part_score(replace(PART, landmark_cost=0.0)) - part_score(PART) == 2.0
-    assert [part_landmark_cost(np.array([True, False, True]), two) for two in (False, True)] == [2.0, 6.0]
+    assert [part_landmark_cost(np.array([0.11, 0.09, 0.3]), two) for two in (False, True)] == [2.0, 6.0]
 
 
 def test_torn_area_costs() -> None:

@@ -349,9 +349,13 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     return fits + numbers.w_deformation * stiff
 
 
-def part_landmark_cost(missed: np.ndarray, two: bool) -> float:
-    """Return the cost of the landmarks that a placement of a part, or of ``two`` parts, contradicts, (l,) bool."""
-    return float(missed.sum()) * (SCORE.part.landmark_cost_of_two if two else SCORE.part.landmark_cost)
+def part_landmark_cost(errors: np.ndarray, two: bool) -> float:
+    """Return the cost of the landmarks that a placement of a part, or of ``two`` parts, contradicts.
+
+    ``errors (l,)``: of its landmarks, in √area of the whole.
+    """
+    missed = float((errors > SCORE.part.max_landmark_error).sum())
+    return missed * (SCORE.part.landmark_cost_of_two if two else SCORE.part.landmark_cost)
 
 
 def excess_deformation(score: float, deformation_energy: float, numbers: Calibration = SCORE.calibration) -> float:

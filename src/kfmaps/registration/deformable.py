@@ -20,6 +20,9 @@ NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
 _MIN_COSINE = 0.3  # cosine between two normals from which a pair of closest points counts; fully at 1
 _ALONG = 0.03  # weight of squared distances along the surface, against 1 along its normal
+LANDMARK_PULL = (10.0, 0.045)
+"""Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades: one that is 2 %
+of √area off does no harm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,6 +223,36 @@ def descend_levels(
             x = descend(body.energy, stiffness, solve, found, x, turns(x))
             progress((i * steps + step + 1) / (len(levels) * steps))
     return x
+
+
+@dataclass(frozen=True, eq=False)
+class LandmarkPull:
+    """Landmarks that pull a surface softly; made by :func:`landmark_pull`."""
+
+    vertices: np.ndarray  # (l,): of the surface
+    places: np.ndarray  # (l, 3): where these belong
+    discs: np.ndarray  # (n, l): how much of each vertex's area belongs to each landmark; columns have sum 1
+    weight: float  # over the stiffness of a level
+    fading: float  # distance from which the pull fades
+
+    def terms(self, x: np.ndarray, stiffness: float) -> list[DataTerm]:
+        """Return one term or none: each landmark takes its disc along, those far off with less weight."""
+        if len(self.vertices) == 0:
+            return []
+        missing = self.places - x[self.vertices]
+        shares = self.weight * stiffness * self.discs / (1 + (missing**2).sum(axis=1) / self.fading**2) ** 2
+        held = shares.sum(axis=1)
+        return [DataTerm(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])]
+
+
+def landmark_pull(
+    body: DeformableMesh, vertices: np.ndarray, places: np.ndarray, pull: tuple[float, float] = LANDMARK_PULL
+) -> LandmarkPull:
+    """Return how landmarks pull a surface: its ``vertices (l,)`` belong at ``places (l, 3)``."""
+    points = np.zeros((len(body.areas), len(vertices)))
+    points[vertices, np.arange(len(vertices))] = 1.0
+    discs = body.areas[:, None] * body.solver(1e-3, 1.0)(points).reshape(points.shape) if len(vertices) else points
+    return LandmarkPull(vertices, places, discs, *pull)
 
 
 def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:

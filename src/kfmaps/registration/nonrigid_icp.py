@@ -30,6 +30,7 @@ from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_v
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.registration.contact_projection import project_with_contact
 from kfmaps.registration.deformable import (
+    LANDMARK_PULL,
     ClosestPointQuery,
     DataTerm,
     DeformableMesh,
@@ -37,6 +38,7 @@ from kfmaps.registration.deformable import (
     deformable_mesh,
     descend_levels,
     initial_deformation,
+    landmark_pull,
 )
 from kfmaps.registration.local_scaling import local_scaling
 
@@ -45,11 +47,9 @@ _Kept = TypeVar("_Kept")
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000
 """Vertices above which the fit begins with coarse copies, and vertices of a copy: 1.4 % of √area apart, finer than what
 the first levels' stiffness lets bend."""
-_LANDMARK_PULL = (10.0, 0.045)
-"""Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades: one that is 2 %
-of √area off does no harm."""
 _SCALED_LANDMARK_PULL = (30.0, 0.1)
-"""The same where sizes may change, as between shapes of other proportions: maps are farther off than a click."""
+"""The pull of landmarks where sizes may change, as between shapes of other proportions: maps are farther off than a
+click."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,18 +171,15 @@ class NonRigid:
         area = self.local_scaling
         stretched = pair.once(("sizes", area), lambda: local_scaling(pair.body.energy, pair.body.areas, area))
         marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
-        discs = _discs(pair, marks)
-        hold, fading = _SCALED_LANDMARK_PULL if self.local_scaling else _LANDMARK_PULL
+        strength = _SCALED_LANDMARK_PULL if self.local_scaling else LANDMARK_PULL
+        pull = landmark_pull(pair.body, marks[:, 0], pair.target.vertices[marks[:, 1]], strength)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
 
         def terms(x: np.ndarray, stiffness: float) -> list[DataTerm]:
             nonlocal gap
             found, gap = _closest_terms(pair, x)
-            found += stays
-            if len(marks):
-                found.append(_marked(pair, marks, discs, x, hold * stiffness, fading))
-            return found
+            return [*found, *stays, *pull.terms(x, stiffness)]
 
         def turns(x: np.ndarray) -> np.ndarray:
             return stretched(x, even(rotations(pair.body.energy, x)))
@@ -238,27 +235,6 @@ def _stays(pair: MeshPair, points: np.ndarray, held: np.ndarray) -> DataTerm:
         (np.ones(len(some)), points[some], np.arange(len(some) + 1)), shape=(len(some), len(pair.body.areas))
     )
     return DataTerm(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
-
-
-def _discs(pair: MeshPair, landmarks: np.ndarray) -> np.ndarray:
-    """How much of each source vertex belongs to each landmark of ``(l, 2)``: columns (n_s, l) with sum 1."""
-    n, count = len(pair.body.areas), len(landmarks)
-    if count == 0:
-        return np.zeros((n, 0))
-    points = np.zeros((n, count))
-    points[landmarks[:, 0], np.arange(count)] = 1.0
-    diffuse = pair.body.solver(1e-3, 1.0)
-    return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
-
-
-def _marked(
-    pair: MeshPair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float, fading: float
-) -> DataTerm:
-    """Landmarks ``(l, 2)`` as a term: each takes its disc along, those farther off than ``fading`` with less weight."""
-    missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
-    shares = weight * discs / (1 + (missing**2).sum(axis=1) / fading**2) ** 2
-    held = shares.sum(axis=1)
-    return DataTerm(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
 
 
 def _closest_terms(pair: MeshPair, x: np.ndarray) -> tuple[list[DataTerm], float]:

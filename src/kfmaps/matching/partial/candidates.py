@@ -16,7 +16,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._threads import parallel
-from kfmaps.matching.partial.registration import PartRegistration, find_overlap, missed_landmarks, register_part
+from kfmaps.matching.partial.registration import PartRegistration, find_overlap, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair
 from kfmaps.matching.partial.scale_search import (
@@ -58,13 +58,14 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
     trust = np.maximum(placement.placed.trust, _LEAST_TRUST_OF_TWO if pair.both_partial else _LEAST_TRUST)
     found = register_part(pair, placement.scale, points, normals, trust, quick=True)
-    missed = missed_landmarks(found, pair.part.landmarks, pair.whole.mesh.vertices[pair.whole.landmarks])
+    ends = pair.whole.mesh.vertices[pair.whole.landmarks]
+    errors = np.linalg.norm(found.vertices[pair.part.landmarks] - ends, axis=1)
     evidence = replace(
         placement.evidence,
         deformation_energy=found.deformation_energy,
         gap=found.gap,
         flipped_area=found.flipped_area,
-        landmark_cost=part_landmark_cost(missed, pair.both_partial),
+        landmark_cost=part_landmark_cost(errors, pair.both_partial),
     )
     if pair.small_scale is not None:
         evidence = replace(evidence, scale_change=abs(math.log(placement.scale / pair.small_scale)))

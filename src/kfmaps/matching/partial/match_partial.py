@@ -14,10 +14,11 @@ from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.precise import PointMap, nearest_vertices
+from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.place_part import PlacedPart, place_part
-from kfmaps.matching.partial.registration import missed_landmarks, scale_mesh
-from kfmaps.matching.score import SCORE, Calibration, part_landmark_cost, probability, verdict
+from kfmaps.matching.partial.registration import scale_mesh
+from kfmaps.matching.score import SCORE, Calibration, landmark_support, part_landmark_cost, probability, verdict
 from kfmaps.shape import Shape
 
 COMMON = 0.5
@@ -84,11 +85,14 @@ def match_partial(
     )
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
     marked = pairs[:, ::-1] if forward else pairs
-    found, rejected = _place_by_landmarks(place_with, marked, whole.mesh, numbers, which == "both")
+    found, errors = _place_by_landmarks(place_with, marked, whole.mesh, numbers, which == "both")
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
     scale = found.registration.scale
+    areas = to_numpy(part.basis.mass) * found.overlap.part
+    around = scale * geodesic_distances(part.mesh, marked[:, 0]) if len(marked) else np.zeros((0, len(areas)))
+    support = landmark_support(errors, around, areas)
     at_scale = scale_mesh(part.mesh, scale)
     here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
     trust = local_confidence(here, there, points, sized=True)
@@ -103,10 +107,10 @@ def match_partial(
         trust,
         None if forward else found.registration.vertices,
         scale,
-        verdict(found.scores[0], found.margin, numbers=numbers),
-        probability(found.scores[0], found.margin, numbers=numbers),
+        verdict(found.scores[0], found.margin, support=support, numbers=numbers),
+        probability(found.scores[0], found.margin, support=support, numbers=numbers),
         found.scores,
-        np.flatnonzero(rejected),
+        np.flatnonzero(errors > SCORE.part.max_landmark_error),
         min(common) > SCORE.part.whole_overlap,
     )
 
@@ -114,7 +118,7 @@ def match_partial(
 def _place_by_landmarks(
     place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration, two: bool
 ) -> tuple[PlacedPart, np.ndarray]:
-    """Return a placement, and which of the landmarks ``pairs (l, 2)`` it contradicts, (l,) bool.
+    """Return a placement, and its errors at the landmarks ``pairs (l, 2)`` where they have no say, (l,).
 
     A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
     where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept,
@@ -122,17 +126,19 @@ def _place_by_landmarks(
     better score is no reason to drop right ones.
     """
 
-    def missed(found: PlacedPart) -> np.ndarray:
-        return missed_landmarks(found.registration, pairs[:, 0], whole.vertices[pairs[:, 1]])
+    def errors(found: PlacedPart) -> np.ndarray:
+        return np.linalg.norm(found.unguided[pairs[:, 0]] - whole.vertices[pairs[:, 1]], axis=1)
+
+    def paid(found: PlacedPart) -> float:
+        return found.scores[0] - part_landmark_cost(errors(found), two)
 
     found = place_with(landmarks=pairs)
-    wrong = missed(found)
+    wrong = errors(found) > SCORE.part.max_landmark_error
     nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
     if len(pairs) and (nowhere or wrong.any()):
         others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
-        again = place_with(landmarks=others, progress=None)
-        found = max(again, found, key=lambda one: one.scores[0] - part_landmark_cost(missed(one), two))
-    return found, missed(found)
+        found = max(place_with(landmarks=others, progress=None), found, key=paid)
+    return found, errors(found)
 
 
 def _slanted_functional_map(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> np.ndarray:

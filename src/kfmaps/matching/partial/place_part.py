@@ -54,6 +54,7 @@ class PlacedPart:
     # Of all candidates, the best first, as if the landmarks that it contradicts had not been given.
     scores: tuple[float, ...]
     margin: float  # by how much the best of those that place the part elsewhere scores less
+    unguided: np.ndarray  # (n_p, 3): the part's vertices where landmarks have no say in where they end
 
 
 def place_part(
@@ -106,11 +107,13 @@ def place_part(
         found = compare_alternatives(found, pair)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
+    unguided = (_register_fully(last, pair, report, guided=False) if len(pairs) else last).vertices[copies[0].owner]
     if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
         on = PartSurface(whole)
-        last = refine_registration(last, copies[0], part, on)
+        last = refine_registration(last, copies[0], part, on, pairs)
     paid = found[0].evidence.landmark_cost
-    return PlacedPart(last, find_overlap(last, on), tuple(one.score + paid for one in found), margin(found, len(pairs)))
+    scores = tuple(one.score + paid for one in found)
+    return PlacedPart(last, find_overlap(last, on), scores, margin(found, len(pairs)), unguided)
 
 
 def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
@@ -161,14 +164,20 @@ def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
     return coarse_proxy(mesh, spread_vertices(mesh, count, landmarks))
 
 
-def _register_fully(found: PartRegistration, pair: PartPair, progress: Callable[[float], None]) -> PartRegistration:
-    """Register the part once more, from where it lies, at the scale of its edges."""
+def _register_fully(
+    found: PartRegistration, pair: PartPair, progress: Callable[[float], None], guided: bool = True
+) -> PartRegistration:
+    """Register the part once more, from where it lies, at the scale of its edges.
+
+    ``guided``: whether landmarks have a say in where it ends.
+    """
     mesh, vertex_normals, samples = pair.whole.mesh, pair.whole.surface.normals, pair.part.samples
     places = closest_points(found.vertices[samples], mesh.vertices, mesh.faces)
     points, normals = places.points, vertex_normals[mesh.faces[places.faces]].mean(axis=1)
     trust = found.inside[samples] * np.exp2(-((places.distances / 0.02) ** 2)) + 1e-3
-    ends = pair.whole.landmarks
+    ends = pair.whole.landmarks if guided else pair.whole.landmarks[:0]
     points[: len(ends)], normals[: len(ends)] = mesh.vertices[ends], vertex_normals[ends]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     scale = found.scale if pair.fixed_scale else found.scale * found.edge_ratio
-    return register_part(pair, scale, points, normals, trust, progress=progress)
+    on = pair if guided else pair.unmarked
+    return register_part(on, scale, points, normals, trust, progress=progress)

@@ -2,7 +2,7 @@
 
 The loop is that of :mod:`kfmaps.registration.nonrigid_icp`, but only the part looks for closest points: what lies
 beyond it on the whole must not pull. So it works for any cut, and the scale of the part follows from how long its edges
-become.
+become. Landmarks pull as they pull whole shapes.
 """
 
 from __future__ import annotations
@@ -19,14 +19,15 @@ from kfmaps.geometry.coarsen import CoarseProxy, embedded_deformation
 from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_normals
 from kfmaps.matching.partial.samples import PartPair, PartSurface
-from kfmaps.matching.score import SCORE
 from kfmaps.registration.deformable import (
     DataTerm,
     DeformableMesh,
+    LandmarkPull,
     closest_point_query,
     deformable_mesh,
     descend_levels,
     initial_deformation,
+    landmark_pull,
 )
 
 _STIFFNESS = (2e-3, 6e-4, 2e-4, 6e-5, 2e-5)
@@ -71,19 +72,26 @@ def register_part(
     samples begin, and the normals of the whole there; ``trust (q,)``: how much each counts; ``quick``: three levels of
     three steps, to compare candidates, instead of five of five; ``progress``: told about how much is done, from 0 to 1.
     """
-    rest = deformable_mesh(scale_mesh(pair.part.mesh, scale))
+    rest = deformable_mesh(scale_mesh(pair.part.mesh, scale), {})
     x = initial_deformation(rest, pair.part.samples, points, normals, rest.areas.sum() * trust / trust.sum())
     levels, steps = (_STIFFNESS[:3], 3) if quick else (_STIFFNESS, 5)
-    return _bend(rest, x, scale, pair.whole, levels, steps, progress)
+    pull = landmark_pull(rest, pair.part.landmarks, pair.whole.mesh.vertices[pair.whole.landmarks])
+    return _bend(rest, x, scale, pair.whole, pull, levels, steps, progress)
 
 
-def refine_registration(found: PartRegistration, copy: CoarseProxy, part: Mesh, whole: PartSurface) -> PartRegistration:
-    """Bend a ``part`` onto a whole as coarse copies of both were bent, of which ``copy`` is the part's."""
+def refine_registration(
+    found: PartRegistration, copy: CoarseProxy, part: Mesh, whole: PartSurface, landmarks: np.ndarray
+) -> PartRegistration:
+    """Bend a ``part`` onto a whole as coarse copies of both were bent, of which ``copy`` is the part's.
+
+    ``landmarks (l, 2)``: vertices of the part and of the whole.
+    """
     rest, x = deformable_mesh(scale_mesh(part, found.scale)), found.vertices
     if len(x) < len(part.vertices):
         turns = rotations(build_arap(found.rest), x)
         x = embedded_deformation(replace(copy, mesh=found.rest), rest.mesh, x, turns)
-    return _bend(rest, x, found.scale, whole, _STIFFNESS[-1:], 2, lambda _done: None)
+    pull = landmark_pull(rest, landmarks[:, 0], whole.mesh.vertices[landmarks[:, 1]])
+    return _bend(rest, x, found.scale, whole, pull, _STIFFNESS[-1:], 2, lambda _done: None)
 
 
 def _bend(
@@ -91,15 +99,17 @@ def _bend(
     x: np.ndarray,
     scale: float,
     whole: PartSurface,
+    pull: LandmarkPull,
     levels: Sequence[float],
     steps: int,
     progress: Callable[[float], None],
 ) -> PartRegistration:
     """Return the part, ``rest``, bent onto the whole from where its vertices are, ``x (n, 3)``."""
 
-    def terms(x: np.ndarray, _stiffness: float) -> list[DataTerm]:
+    def terms(x: np.ndarray, stiffness: float) -> list[DataTerm]:
         found, there, agree = whole.surface(x, vertex_normals(Mesh(x, rest.mesh.faces)))
-        return [DataTerm(rest.areas * (agree * _is_inside(found, whole)), found.points, None, there)]
+        closest = DataTerm(rest.areas * (agree * _is_inside(found, whole)), found.points, None, there)
+        return [closest, *pull.terms(x, stiffness)]
 
     def turns(x: np.ndarray) -> np.ndarray:
         return rotations(rest.energy, x)
@@ -130,14 +140,6 @@ def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, who
         float(areas[cosine < 0.3].sum() / areas.sum()),
         float(np.median(longer)),
     )
-
-
-def missed_landmarks(found: PartRegistration, vertices: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Return which landmarks a registered part contradicts, (l,) bool.
-
-    ``vertices (l,)``: of the part; ``places (l, 3)``: where these belong.
-    """
-    return np.linalg.norm(found.vertices[vertices] - places, axis=1) > SCORE.part.max_landmark_error
 
 
 def _is_inside(found: ClosestPoints, whole: PartSurface) -> np.ndarray:

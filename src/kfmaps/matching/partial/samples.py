@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -73,6 +73,11 @@ class PartPair:
     threads: int | None = None
     both_partial: bool = False
     small_scale: float | None = None
+
+    @property
+    def unmarked(self) -> PartPair:
+        """The same without landmarks."""
+        return replace(self, part=replace(self.part, n_landmarks=0), whole=replace(self.whole, n_landmarks=0))
 
     def bounds(self, scale: float) -> DistanceBounds:
         """Return the bounds of the part's distances on the whole at a ``scale``."""
