@@ -108,8 +108,11 @@ def refine_by_registration(
     tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
     # Those that were given up count as bent as badly as the worst.
     energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
-    energy, (strain, shot_error, _) = max(energies, default=None), reference_values(tried, max)
-    given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
+    energy, (strain, shot_error, misplaced) = max(energies, default=None), reference_values(tried, max)
+    given_up = [
+        replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error, extremity_error=misplaced)
+        for c in behind.values()
+    ]
     reference, every = reference_values(tried, min), [*tried, *given_up]
     order = in_order([normalize_errors(c, reference) for c in every])
     which = dict(zip((id(c.functional_map) for c in every), (*ended, *behind), strict=True))
