@@ -176,6 +176,27 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
 
+def test_repairs_that_were_given_up_count_as_the_worst(creatures, monkeypatch):
+    """Maps made from matches of extremities agree with these: by their own error one that is wrong would lead."""
+    source, target, _ = creatures
+    on, one = one_of(creatures)
+    maps = [
+        replace(one, name=str(i), points=np.roll(one.points, 50 * i), functional_map=i * np.eye(5)) for i in range(3)
+    ]
+    ended = {i: replace(c, extremity_error=0.1 + 0.2 * i, strain=float(i)) for i, c in enumerate(maps[:2])}
+    monkeypatch.setattr(mending, "compared", lambda found, *_what: found)
+    nowhere, copies = np.zeros((0, 2), dtype=np.int64), ProxyCache.of(source, target, on)
+
+    def errors() -> dict[str, float | None]:
+        monkeypatch.setattr(mending, "_repair_all", lambda *_what: (ended, {2: replace(maps[2], extremity_error=-1.0)}))
+        return {c.name: c.extremity_error for c in refine_by_registration(maps, on, copies, nowhere, 1)[0]}
+
+    assert errors() == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
+    monkeypatch.setattr(mending, "match_extremities", lambda *_what: [])
+    ended = {i: replace(c, extremity_error=None) for i, c in ended.items()}
+    assert errors() == {"0": None, "1": None, "2": None}
+
+
 def exchanged(knees, height):
     """The true map, but left for right below a ``height``; the creature is two high."""
     assert knees.mirrored is not None

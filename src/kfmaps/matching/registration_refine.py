@@ -109,8 +109,9 @@ def refine_by_registration(
     # Those that were given up count as bent as badly as the worst.
     energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
     energy, (strain, shot_error, misplaced) = max(energies, default=None), reference_values(tried, max)
+    off = misplaced if likely else None
     given_up = [
-        replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error, extremity_error=misplaced)
+        replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error, extremity_error=off)
         for c in behind.values()
     ]
     reference, every = reference_values(tried, min), [*tried, *given_up]
@@ -161,11 +162,8 @@ def _repair_all(
     behind = {i: c for i, c in better.items() if i not in going}
     done[:] = 1.0
     done[going] = 0.5
-    ended = dict(zip(going, parallel(end_one, going, threads), strict=True))
-    ended, behind = (
-        {i: _with_extremity_error(setting, c) for i, c in some.items() if c is not None} for some in (ended, behind)
-    )
-    return ended, behind
+    ended = zip(going, parallel(end_one, going, threads), strict=True)
+    return {i: _with_extremity_error(setting, c) for i, c in ended if c is not None}, behind
 
 
 def _quality(one: Candidate) -> float:
