@@ -755,8 +755,8 @@ MUTANTS = tuple(
             "test_registration_evidence -k squared",
         ),
         (
-            "[(c.name, c.uses_descriptors) for c in found], maps, points",
-            "[], maps[:0], points",
+            "return score_maps(found, samples.whole, config.threads)",
+            "return score_maps([], samples.whole, config.threads)",
             "test_registration_evidence -k without_landmarks",
         ),
         (

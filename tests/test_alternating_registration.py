@@ -28,7 +28,7 @@ from kfmaps.matching.extremity_matching import (
     vertices_of_match,
 )
 from kfmaps.matching.finish import better_match
-from kfmaps.matching.initial_maps import paired_map
+from kfmaps.matching.initial_maps import Start, paired_map
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
@@ -165,7 +165,7 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     told = []
     refine_by_registration(
@@ -185,7 +185,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
     calls, apart = [], []
 
     def made(C, on, led, _landmarks):
@@ -226,7 +226,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
     (best, *others) = match_extremities(on.source, on.target, on.descriptor_cost)
     mirror = next(one for one in others if one.contradicts(best))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
@@ -268,7 +268,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
-    good, bad = score_maps([("matched", True), ("before", True)], np.stack([C, turned]), None, on, 1)
+    good, bad = score_maps([Start("matched", C), Start("before", turned)], on, 1)
 
     def made(C, where, *_rest):
         yield alternate.AlternatingResult(C, where.source.mesh.vertices)
@@ -291,7 +291,7 @@ def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
-    good, bad = score_maps([("", True)] * 2, np.stack([C, turned]), None, on, 1)
+    good, bad = score_maps([Start("", C), Start("", turned)], on, 1)
     gap, rounds = good.quality.score - bad.quality.score, []
 
     def made(C, where, *_rest):
@@ -352,7 +352,7 @@ def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
     astray = alternate.AlternatingResult(
         np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices
     )
@@ -378,7 +378,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("rough", True)], rough[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("rough", rough)], on, 1)]
     astray = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
 
     def made(_C, where, *_rest):
@@ -427,8 +427,8 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 6 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
     bases = source.basis.truncate(40), target.basis.truncate(40)
-    maps = np.stack([np.asarray(to_functional(points, *bases)) for points in (torn, truth)])
-    bad, good = score_maps([("torn", True), ("truth", True)], maps, None, on, 1)
+    maps = [np.asarray(to_functional(points, *bases)) for points in (torn, truth)]
+    bad, good = score_maps([Start("torn", maps[0]), Start("truth", maps[1])], on, 1)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
     of = ProxyCache.of(source, target, on)
@@ -461,7 +461,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target)))
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    best = score_maps([("best", True)], C[None], None, on.whole, 1)[0]
+    best = score_maps([Start("best", C)], on.whole, 1)[0]
     few = np.where(np.arange(len(best.points)) < len(best.points) // 20, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
@@ -628,7 +628,7 @@ def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_image
         for points in (torn, truth)
     ]
     copies = ProxyCache.of(source, target, on.whole)
-    found = ranking.with_bending(score_maps([("torn", True), ("right", True)], np.stack(maps), None, on.whole), copies)
+    found = ranking.with_bending(score_maps([Start("torn", maps[0]), Start("right", maps[1])], on.whole), copies)
     marks, wrong = np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=bool)
     config = replace(kfmaps.Config(), threads=1)
     torn_first = choose._Search(source, target, config, marks, None, wrong, on, copies, found, found, "preserving")

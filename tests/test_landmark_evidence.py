@@ -19,6 +19,7 @@ from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import score_maps
+from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.landmark_evidence import (
     LANDMARK_WEIGHT,
     LANDMARK_WEIGHT_UNLIKE,
@@ -47,7 +48,6 @@ GUARDS = (
     "kfmaps.registration.nonrigid_icp",
 )
 
-NAMES = [("a", True)]
 """Of a single map, which SHOT has led."""
 
 
@@ -71,7 +71,7 @@ def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
     C = functional(creatures[2], creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps(NAMES, C[None], None, a[3].whole, 1))
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].whole, 1))
     monkeypatch.setattr(choose, "without_landmarks", lambda *_a, **_m: [])
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=-np.inf))
 
@@ -154,7 +154,7 @@ def test_backing_takes_away_doubt() -> None:
 def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
     on = given(creatures, 10)
     maps = (functional(creatures[2], creatures, 40), slid)
-    right, wrong = (score_maps(NAMES, C[None], None, on, 1)[0] for C in maps)
+    right, wrong = (score_maps([Start("a", C)], on, 1)[0] for C in maps)
     areas = np.asarray(on.source.samples.basis.mass)
     assert on.landmark_evidence is not None
     assert (
@@ -315,7 +315,7 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = functional(truth, creatures, 40)
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps(NAMES, C[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("a", C)], on, 1)]
     at = spread_out(creatures, 4)
     begun, leads, usual = [], [], mending.build_guidance
 

@@ -12,6 +12,7 @@ from kfmaps.matching import search
 from kfmaps.matching.candidates import score_maps
 from kfmaps.matching.extremity_matching import extremity_difference, match_of_map
 from kfmaps.matching.finish import _doubt_exchanged
+from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.limb_exchange import _MAX_DIFFERENCE, compare_exchanged, exchange_limbs, exchanged_matches
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache
@@ -37,7 +38,7 @@ def made():
         target=target,
         on=on,
         truth=pair.truth,
-        right=score_maps([("true", True)], C[None], None, on)[0],
+        right=score_maps([Start("true", C)], on)[0],
         copies=ProxyCache.of(source, target, on),
     )
 

@@ -20,6 +20,7 @@ from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import map_distance, score_maps
+from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import compared, refine_by_registration
@@ -131,7 +132,7 @@ def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatc
 def one_of(creatures):
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
-    return on, score_maps([("truth", True)], functional(truth, source, target)[None], None, on, 1)[0]
+    return on, score_maps([Start("truth", functional(truth, source, target))], on, 1)[0]
 
 
 def test_looks_and_strain_count_over_usual_ones(creatures):
@@ -168,7 +169,7 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
         assert [c.name for c in ranked] == names
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
-    monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])
+    monkeypatch.setattr(mending, "score_maps", lambda starts, *_w: [bad if starts[0].name == "bad" else good])
     monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
@@ -311,7 +312,7 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
 
     def few(*what, **how):
         asked.append((what[3], how))
-        return score_maps([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
+        return score_maps([Start("free", np.eye(40))], what[3].whole, 1)
 
     monkeypatch.setattr(choose, "candidates", few)
     found = without_landmarks(source, target, kfmaps.Config(), on, 3, descriptors=None)

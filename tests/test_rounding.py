@@ -28,7 +28,7 @@ from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
 from kfmaps.matching.assemble import orientation_pair, principal_features
 from kfmaps.matching.candidates import score_maps
 from kfmaps.matching.features import Features
-from kfmaps.matching.initial_maps import perturb
+from kfmaps.matching.initial_maps import Start, perturb
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct
@@ -111,13 +111,11 @@ def test_the_order_of_candidates_knows_no_rounding(shape):
     maps = {"right": np.eye(K), **poor_maps()}
     for first in FIRST:
         judge = sample_for_scoring(starting(shape, first), 200)
-        found = score_maps(
-            [(name, True) for name in maps], np.stack(list(maps.values())), None, build_sample_pair(judge, judge)
-        )
+        found = score_maps([Start(*one) for one in maps.items()], build_sample_pair(judge, judge))
         assert distinct(found, judge)[0].name == "right"
         assert distinct(found[::-1], judge)[0].name == "right"
     # Symmetric maps tie but for rounding: the one that was found first stays first.
-    right = score_maps([("right", True)], np.eye(K)[None], None, build_sample_pair(judge, judge))[0]
+    right = score_maps([Start("right", np.eye(K))], build_sample_pair(judge, judge))[0]
     up = replace(right, quality=replace(right.quality, coverage=right.quality.coverage + 1e-15))
     assert up.score == right.score
 

@@ -20,7 +20,7 @@ from kfmaps.matching import candidates, search
 from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
 from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import fit
-from kfmaps.matching.initial_maps import FIT_POINTS, FitSpec, fit_descriptor_set
+from kfmaps.matching.initial_maps import FIT_POINTS, FitSpec, Start, fit_descriptor_set
 from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import sample_for_scoring, sample_surface
@@ -111,7 +111,7 @@ def test_the_orientation_of_a_family_turns_its_maps(shape, other):
         for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
     ]
     on = build_sample_pair(*probes)
-    kept, turned, free = (c.quality.orientation for c in score_maps([("", True)] * 3, np.stack(maps), None, on))
+    kept, turned, free = (c.quality.orientation for c in score_maps([Start("", C) for C in maps], on))
     assert kept > 0.8
     assert kept > turned + 0.3
     assert kept >= free - 1e-6
@@ -161,7 +161,7 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     true = geodesic_distances(shape.mesh, at[2:])[0, 5]
     assert off[:2].max() < 0.1
     assert off[2] == pytest.approx(true, abs=0.1)
-    one = score_maps([("", True)], np.eye(60)[None], None, on.whole)[0]
+    one = score_maps([Start("", np.eye(60))], on.whole)[0]
     assert one.quality.score - one.score == pytest.approx(SCORE.w_landmark, rel=0.3)
     less = drop_landmarks(on, np.array([False, False, True])).whole
     assert drop_landmarks(on, np.ones(3, dtype=bool)).few.landmark_cost is None

@@ -10,7 +10,7 @@ from kfmaps.fmap.convert import to_functional
 from kfmaps.matching import search
 from kfmaps.matching import self_maps as within
 from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps
-from kfmaps.matching.initial_maps import symmetry_inits
+from kfmaps.matching.initial_maps import Start, symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
@@ -88,8 +88,8 @@ def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
     source, target, truth = pair
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     S = find_self_maps(on.target if of_target else on.source, 40)[0]
-    right = score_maps([("truth", True)], C[None], None, on)[0]
-    mirrored = score_maps([("mirrored", True)], (S @ C if of_target else C @ S)[None], None, on)[0]
+    right = score_maps([Start("truth", C)], on)[0]
+    mirrored = score_maps([Start("mirrored", S @ C if of_target else C @ S)], on)[0]
     assert len(distinct_maps([right, mirrored], on.source, 0.12)) == 2
     starts = symmetry_inits([mirrored], on, 60)
     assert {start.uses_descriptors for start in starts} == {True}
@@ -111,7 +111,7 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(pair, monkeypatch):
     assert error(state.ranked[0]) < 0.05
     S, C = self_maps(state.samples.few.target, 40)[0], state.ranked[0].functional_map
     mirrored = S @ C[: len(S), : len(S)]
-    image = score_maps([("image", True)], mirrored[None], None, mirrored_pair(whole))[0]
+    image = score_maps([Start("image", mirrored)], mirrored_pair(whole))[0]
     missed = [one for one in state.found if error(one) > 0.1]
     blind = replace(state, found=missed, ranked=ranking(missed, whole, state.copies))
     assert image.score > blind.ranked[0].score

@@ -12,7 +12,8 @@ from kfmaps._arrays import to_numpy
 from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching.candidates import FINE, FINE_WEIGHTS, refine_batch
-from kfmaps.matching.quality import ShapeSamples, map_quality, mirror_samples
+from kfmaps.matching.initial_maps import Start
+from kfmaps.matching.quality import ShapeSamples, mirror_samples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.matching.score import SCORE, probability
@@ -45,16 +46,16 @@ def score_pair_maps(
     k = min(FINE, len(across.source.basis.eigenvalues), len(across.target.basis.eigenvalues))
     bases = across.source.basis.truncate(k), across.target.basis.truncate(k)
     points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
-    rough = np.stack([to_numpy(to_functional(one, *bases)) for one in points])
+    rough = [to_numpy(to_functional(one, *bases)) for one in points]
     found: dict[int, ScoredMap] = {}
     for back in sorted({turned for _, turned in maps}):
         on = build_sample_pair(samples[0], mirror_samples(samples[1]) if back else samples[1])
         rows = [i for i, (_, turned) in enumerate(maps) if turned == back]
         weights = (FINE_WEIGHTS[0][0] if on.descriptor_cost is not None else 0.0, 0.0)
-        settled, places = refine_batch(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
-        for i, C, at in zip(rows, settled, places, strict=True):
-            quality = map_quality(C, on.source, on.target, at)
-            found[i] = ScoredMap(C[:N_FUNCTIONS, :N_FUNCTIONS], quality.score, quality.orientation, back)
+        settled = refine_batch([Start("", rough[i], weights=weights) for i in rows], on, (max(k // 2, 2), k), 1)
+        for i, one in zip(rows, settled, strict=True):
+            C = one.functional_map[:N_FUNCTIONS, :N_FUNCTIONS]
+            found[i] = ScoredMap(C, one.quality.score, one.quality.orientation, back)
     return [found[i] for i in range(len(maps))]
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,9 +17,8 @@ from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.zoomout import batched_zoomout
-from kfmaps.matching.extremity_matching import ExtremityMatch, match_of_map
+from kfmaps.matching.extremity_matching import match_of_map
 from kfmaps.matching.features import sample_pair_for_fit
-from kfmaps.matching.fit import Fit
 from kfmaps.matching.initial_maps import (
     FIT_POINTS,
     MUCH,
@@ -89,7 +89,7 @@ def candidates(
     if not easy:
         C, values = order[0].functional_map, source.basis.eigenvalues
         kicks = [perturb(C, values, np.random.default_rng(seed + i)) for i in range(N_PERTURBATIONS)]
-        again += [Start(f"kicked {i}", kick, STARTS[0], WEIGHTS[0], False) for i, kick in enumerate(kicks)]
+        again += [Start(f"kicked {i}", kick, False, WEIGHTS[0], STARTS[0]) for i, kick in enumerate(kicks)]
     found += refine_coarse(again, few, functions, threads)
     report(0.75)
     finalists = _FEWER if easy else 10
@@ -120,13 +120,8 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads
         size = min(start.functions, stop, *start.functional_map.shape)
         groups.setdefault((size, start.weights), []).append(start)
     found = []
-    for (size, weights), members in groups.items():
-        maps = np.stack([start.functional_map[:size, :size] for start in members])
-        matches = [start.match for start in members]
-        refined = refine_batch(maps, pair, (*range(size, stop, 4), stop), weights, matches, threads)
-        found += score_maps(
-            [(s.name, s.uses_descriptors) for s in members], *refined, pair, threads, [s.fit for s in members]
-        )
+    for (size, _), members in groups.items():
+        found += refine_batch(members, pair, (*range(size, stop, 4), stop), threads)
     return found
 
 
@@ -143,12 +138,13 @@ def refine_fine(
     for weights in dict.fromkeys((bare, *guided)):
         members = [c for c in chosen if weights in guided or not c.uses_descriptors]
         if members:
-            matches = [match_of_map(c.points, few.source, few.target) for c in members] if weights[2:] else []
             size = min(20, stop, *members[0].functional_map.shape)  # from fewer functions it loses right maps
-            maps = np.stack([c.functional_map[:size, :size] for c in members])
-            refined = refine_batch(maps, pair, (*range(size, stop, 5), stop), weights, matches, threads)
             uses = bool(weights[0]) or pair.descriptor_cost is None
-            found += score_maps([(c.name, uses) for c in members], *refined, pair, threads, [c.fit for c in members])
+            starts = [Start(c.name, c.functional_map, uses, weights, fit=c.fit) for c in members]
+            if weights[2:]:
+                matches = [match_of_map(c.points, few.source, few.target) for c in members]
+                starts = [replace(start, match=match) for start, match in zip(starts, matches, strict=True)]
+            found += refine_batch(starts, pair, (*range(size, stop, 5), stop), threads)
     return found
 
 
@@ -162,66 +158,40 @@ def compose_with_symmetries(one: Candidate, samples: TwoLevelSamples, threads: i
 
 def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
     """Refine finished candidates once more, on samples of which something has changed."""
-    maps = np.stack([c.functional_map for c in found])
-    size = maps.shape[1]
+    size = len(found[0].functional_map)
     out: list[Candidate] = []
     for uses in (True, False):
-        members = [i for i, c in enumerate(found) if c.uses_descriptors == uses]
-        if members:
-            weights = distinct_weights((FINE_WEIGHTS[0] if uses else WEIGHTS[0],), pair)[0]
-            refined = refine_batch(maps[members], pair, (max(size // 2, 2), size), weights, (), threads)
-            out += score_maps(
-                [(found[i].name, uses) for i in members], *refined, pair, threads, [found[i].fit for i in members]
-            )
+        weights = distinct_weights((FINE_WEIGHTS[0] if uses else WEIGHTS[0],), pair)[0]
+        starts = [
+            Start(c.name, c.functional_map, uses, weights, fit=c.fit) for c in found if c.uses_descriptors == uses
+        ]
+        out += refine_batch(starts, pair, (max(size // 2, 2), size), threads) if starts else []
     return out
 
 
 def refine_batch(
-    maps: np.ndarray,
-    pair: SamplePair,
-    sizes: tuple[int, ...],
-    weights: KernelWeights,
-    matches: Sequence[ExtremityMatch | None],
-    threads: int | None,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Run :func:`batched_zoomout` on a pair; ``matches``: the extremities that each map takes to each other."""
-    bases = pair.source.samples.basis, pair.target.samples.basis
-    return batched_zoomout(maps, *bases, sizes, pair.matching_cost(*weights, matches=matches), threads, pair.solver)
-
-
-def score_maps(
-    names: list[tuple[str, bool]],
-    maps: np.ndarray,
-    points: np.ndarray | None,
-    pair: SamplePair,
-    threads: int | None = None,
-    fits: Sequence[Fit | None] | None = None,
+    starts: list[Start], pair: SamplePair, sizes: tuple[int, ...], threads: int | None = None
 ) -> list[Candidate]:
-    """Return candidates of ``maps (m, k, k)`` with their quality.
+    """Refine maps of the same weights on a pair of samples, in steps of these ``sizes``, and score them."""
+    bases = pair.source.samples.basis, pair.target.samples.basis
+    maps = np.stack([start.functional_map[: sizes[0], : sizes[0]] for start in starts])
+    cost = pair.matching_cost(*starts[0].weights, matches=[start.match for start in starts])
+    refined = zip(starts, *batched_zoomout(maps, *bases, sizes, cost, threads, pair.solver), strict=True)
+    return score_maps([replace(start, functional_map=C, points=at) for start, C, at in refined], pair, threads)
 
-    ``names``: of each and whether it uses descriptors; ``points (m, q_t)``: a source sample for each target sample,
-    sought where they are ``None``; ``fits``: the kernel fit that each began with.
-    """
-    functions = pair.source.samples.basis.functions
 
-    def judge(i: int) -> Candidate:
-        C = maps[i]
-        at = points[i] if points is not None else sample_points(C, pair)
-        errors = (
-            np.zeros(0) if pair.landmark_evidence is None else landmark_errors(C, functions, pair.landmark_evidence)
-        )
+def score_maps(found: Sequence[Start | Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
+    """Return maps as candidates, with their quality on a pair of samples; points that are not known are sought."""
+    functions, evidence = pair.source.samples.basis.functions, pair.landmark_evidence
+
+    def judge(one: Start | Candidate) -> Candidate:
+        C = one.functional_map
+        at = sample_points(C, pair) if one.points is None else one.points
+        errors = np.zeros(0) if evidence is None else landmark_errors(C, functions, evidence)
         quality = map_quality(C, pair.source, pair.target, at)
-        return Candidate(names[i][0], C, at, quality, names[i][1], errors, fit=fits[i] if fits else None)
+        return Candidate(one.name, C, at, quality, one.uses_descriptors, errors, fit=one.fit)
 
-    return parallel(judge, range(len(maps)), threads)
-
-
-def rescore(found: list[Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
-    """Return the same maps scored on another pair of samples."""
-    maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
-    return score_maps(
-        [(c.name, c.uses_descriptors) for c in found], maps, points, pair, threads, [c.fit for c in found]
-    )
+    return parallel(judge, found, threads)
 
 
 def sample_points(C: np.ndarray, pair: SamplePair) -> np.ndarray:

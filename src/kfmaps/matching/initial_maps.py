@@ -54,15 +54,16 @@ FIT_POINTS = 2000
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """A rough map before its refinement: where it came from, and what takes part."""
+    """A map before it is refined and scored: where it came from, and what takes part."""
 
     name: str
-    functional_map: np.ndarray
-    functions: int
-    weights: KernelWeights
-    uses_descriptors: bool
+    functional_map: np.ndarray  # (k, k)
+    uses_descriptors: bool = True
+    weights: KernelWeights = ()
+    functions: int = 0  # of the first step of the rough refinement
     match: ExtremityMatch | None = None
     fit: Fit | None = None
+    points: np.ndarray | None = None  # (q_t,): a source sample for each target sample, where they are known
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,7 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights]) -
         return "signs " + "".join("+" if s > 0 else "-" for s in some[1:]) + f", weight {weight:g}"
 
     return [
-        Start(name(some, w[0]), np.diag(some), count + 1, w, bool(w[0]) or pair.descriptor_cost is None)
+        Start(name(some, w[0]), np.diag(some), bool(w[0]) or pair.descriptor_cost is None, w, count + 1)
         for w in distinct_weights(weights, pair)
         for some in signs
     ]
@@ -103,7 +104,7 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights]) -
 def repeated_starts(maps: Iterable[tuple[str, np.ndarray, Fit | None]], pair: SamplePair) -> list[Start]:
     """Return starts of ``maps``, each with its name and fit, from several sizes and with several weights."""
     return [
-        Start(f"{name}, from {start}, weight {w[0]:g}", C, start, w, True, fit=fit)
+        Start(f"{name}, from {start}, weight {w[0]:g}", C, True, w, start, fit=fit)
         for name, C, fit in maps
         for start in STARTS
         for w in distinct_weights(FIT_WEIGHTS, pair)
@@ -116,7 +117,7 @@ def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
     found = match_extremities(pair.source, pair.target, pair.descriptor_cost)
     maps = [(match, paired_map(match, pair, size)) for match in found]
     return [
-        Start(f"{match}", C, len(C), w, True, match)
+        Start(f"{match}", C, True, w, len(C), match)
         for w in distinct_weights([(4.0, 12.0, 30.0)], pair)
         for match, C in maps
     ]

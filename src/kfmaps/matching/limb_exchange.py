@@ -10,9 +10,9 @@ from itertools import combinations
 
 import numpy as np
 
-from kfmaps.matching.candidates import FINE_WEIGHTS, refine_batch, score_maps
+from kfmaps.matching.candidates import FINE_WEIGHTS, refine_batch
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, extremity_difference, match_of_map
-from kfmaps.matching.initial_maps import distinct_weights
+from kfmaps.matching.initial_maps import Start, distinct_weights
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.ranking import ProxyCache, rerank_close, with_bending
 from kfmaps.matching.sample_pair import SamplePair
@@ -35,18 +35,16 @@ def exchange_limbs(best: Candidate, pair: SamplePair, threads: int | None = None
         return []
     size, functions = len(best.functional_map), pair.source.samples.basis.functions
     nearest_extremity = pair.target.extremities.distances[match.target].argmin(axis=0)
-    maps = []
+    weights = distinct_weights(FINE_WEIGHTS[1:], pair)[0]
+    starts = []
     for one in exchanged:
         cost = extremity_cost(pair.source.extremities, pair.target.extremities, one, pair.descriptor_cost)
         on_limb = (one.source != match.source)[nearest_extremity]
         points = np.where(on_limb, cost.argmin(axis=1), best.points)
-        maps.append(np.asarray(pair.solver(size) @ functions[points, :size], dtype=np.float64))
+        C = np.asarray(pair.solver(size) @ functions[points, :size], dtype=np.float64)
+        starts.append(Start(f"{best.name}, two limbs exchanged", C, best.uses_descriptors, weights, match=one))
     half = max(size // 2, 2)
-    weights = distinct_weights(FINE_WEIGHTS[1:], pair)[0]
-    starts = np.stack(maps)[:, :half, :half]
-    refined = refine_batch(starts, pair, (half, (half + size) // 2, size), weights, exchanged, threads)
-    names = [(f"{best.name}, two limbs exchanged", best.uses_descriptors)] * len(maps)
-    return score_maps(names, *refined, pair, threads)
+    return refine_batch(starts, pair, (half, (half + size) // 2, size), threads)
 
 
 def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[ExtremityMatch]:

@@ -29,7 +29,7 @@ from kfmaps.matching.extremity_matching import (
     unused_matches,
     vertices_of_match,
 )
-from kfmaps.matching.initial_maps import EXTREMITY_FUNCTIONS, paired_map
+from kfmaps.matching.initial_maps import EXTREMITY_FUNCTIONS, Start, paired_map
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.ranking import BENT, ProxyCache, in_order, normalize_errors, reference_values, score_registered
@@ -184,8 +184,8 @@ def _repair_rounds(
         if found is None:
             yield None
             return
-        C = found.functional_map[None, :FINE, :FINE]
-        new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1, [old.fit])[0]
+        start = Start(old.name, found.functional_map[:FINE, :FINE], old.uses_descriptors, fit=old.fit)
+        new = score_maps([start], setting.samples, 1)[0]
         yield replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
 
 
@@ -221,7 +221,7 @@ def _begin(near: list[Candidate], setting: RepairSetting) -> list[tuple[Candidat
     ]
     for one in unused_matches(likely, [match for match in known if match], PAIRED):
         C = paired_map(one, samples, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
-        candidate = score_maps([(f"{one}", True)], C[None], None, samples, 1)[0]
+        candidate = score_maps([Start(f"{one}", C)], samples, 1)[0]
         begun.append((candidate, vertices_of_match(one, samples.source, samples.target)))
     return begun
 

@@ -36,13 +36,12 @@ from kfmaps.matching.candidates import (
     drawn_seed,
     map_distance,
     rerefine,
-    rescore,
     score_maps,
 )
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import Fit, check_landmark_pairs
-from kfmaps.matching.initial_maps import drop_learned
+from kfmaps.matching.initial_maps import Start, drop_learned
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, build_guidance, landmark_errors
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
@@ -171,7 +170,7 @@ def search_map(
         if not len(pairs) or not wrong.all():
             left = pairs[~wrong]
             found = candidates(source, target, config, kept, given, landmarks=left, descriptors=own, report=rest)
-        free = rescore(alone, kept.whole, config.threads) if alone else []
+        free = score_maps(alone, kept.whole, config.threads) if alone else []
         return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
     state = search_with(none)
@@ -266,9 +265,9 @@ def _repair_best(state: _Search) -> _Search:
     *_, one = register_map_on_proxies(best.functional_map, copies.coarse, guidance, state.pairs)
     if one is None:
         return state
-    C, threads = one.functional_map[None, :FINE, :FINE], state.config.threads
-    made = score_maps([(best.name, best.uses_descriptors)], C, None, samples, threads, [best.fit])
-    made = with_bending(made, copies, threads)[0]
+    start = Start(best.name, one.functional_map[:FINE, :FINE], best.uses_descriptors, fit=best.fit)
+    threads = state.config.threads
+    made = with_bending(score_maps([start], samples, threads), copies, threads)[0]
     return replace(state, ranked=[made, *state.ranked[1:]]) if made.score > best.score else state
 
 
@@ -446,7 +445,7 @@ def without_landmarks(
         *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.few, samples.whole))
     )
     found = candidates(source, target, config, bare, rng, **more)
-    return rescore(found, samples.whole, config.threads)
+    return score_maps(found, samples.whole, config.threads)
 
 
 def alternative_maps(
@@ -498,7 +497,7 @@ def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | N
 
     Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
     """
-    images = by_score(rescore([replace(c, uses_descriptors=True) for c in found], mirrored, threads))
+    images = by_score(score_maps([replace(c, uses_descriptors=True) for c in found], mirrored, threads))
     settled = 3  # maps to a mirror image that are worth a refinement of their own
     return by_score(rerefine(images[:settled], mirrored, threads) + images[settled:])
 
