@@ -148,12 +148,11 @@ def _energies(source: Any, target: Any, sizes: list[int]) -> dict[int, Any]:
     config = replace(kfmaps.Config(), threads=1)
     points = sample_pair_for_fit(source, target, 2000, np.zeros((0, 2), dtype=np.int64), None, 0)
     problems: list[Any] = []
-    replaced = initial_maps.minimize_problem, initial_maps.fit_of_problem
-    initial_maps.minimize_problem = lambda problem, _settings: problems.append(problem)  # type: ignore[assignment]
-    initial_maps.fit_of_problem = lambda *_: None  # type: ignore[assignment]
+    replaced = initial_maps.minimize_problem
+    initial_maps.minimize_problem = problems.append  # type: ignore[assignment]
     try:
         wanted = [initial_maps.FitSpec("SHOT and waves", k, 0.0) for k in sizes]
         initial_maps.fit_descriptor_set(wanted, points, config, (None, None), 0)
     finally:
-        initial_maps.minimize_problem, initial_maps.fit_of_problem = replaced
+        initial_maps.minimize_problem = replaced
     return {k: problem.energy for k, problem in zip(sizes, problems, strict=True)}

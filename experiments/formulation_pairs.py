@@ -28,7 +28,7 @@ from kfmaps.geometry.sampling import stratified_samples
 from kfmaps.kernels.kernels import Gaussian, Linear
 from kfmaps.matching.assemble import assemble
 from kfmaps.matching.fit import fit_points
-from kfmaps.matching.solve import Minimised, minimize_problem
+from kfmaps.matching.solve import Fit, minimize_problem
 from kfmaps.shape import Shape
 from pair_errors import prepared
 
@@ -126,7 +126,7 @@ def _rows(basis: Basis, rows: np.ndarray) -> Basis:
     return Basis(basis.eigenvalues, basis.functions[rows], basis.mass[rows])
 
 
-def solve_each(pair: Pair, config: Config, landmarks: np.ndarray, formulations: Settings) -> dict[str, Minimised]:
+def solve_each(pair: Pair, config: Config, landmarks: np.ndarray, formulations: Settings) -> dict[str, Fit]:
     """Return the minimiser of each formulation; what they have in common is computed once."""
     sides = (pair.source, pair.target)
     orientation = max(weights.orientation for _, weights in formulations.values())
@@ -142,11 +142,11 @@ def solve_each(pair: Pair, config: Config, landmarks: np.ndarray, formulations: 
             rng = np.random.default_rng(0)
             shared[own] = assemble(*points.shapes, points.bases, points.descriptors, with_orientation, rng, sides)
         orientations = shared[own].orientations if weights.orientation else None
-        results[name] = minimize_problem(replace(shared[own], config=own_config, orientations=orientations), own_config)
+        results[name] = minimize_problem(replace(shared[own], config=own_config, orientations=orientations))
     return results
 
 
-def solve_one(pair: Pair, config: Config, name: str) -> Minimised:
+def solve_one(pair: Pair, config: Config, name: str) -> Fit:
     """Return the minimiser of one of :data:`FORMULATIONS`."""
     return solve_each(pair, config, pair.landmarks, {name: FORMULATIONS[name]})[name]
 
@@ -159,8 +159,8 @@ def compare_formulations(data_set: DataSet, names: Names, config: Config, formul
         for kernel, record in KERNELS.items():
             results = solve_each(pair, replace(config, kernel=record), pair.landmarks, formulations)
             for name, result in results.items():
-                C = to_numpy(result.solution.value)
-                refined = pair.refine(C) if result.back is None else pair.refine_both(C, to_numpy(result.back))[0]
+                C = result.functional_map
+                refined = pair.refine(C) if result.back is None else pair.refine_both(C, result.back)[0]
                 row = {"formulation": name, "kernel": kernel, "descriptors": config.descriptors.n_spectral}
                 rows.append(row | {"raw": pair.error(C), "refined": pair.error(refined)})
         return rows
@@ -173,10 +173,10 @@ def compare_directions(data_set: DataSet, names: Names, config: Config) -> Rows:
         rows: Rows = []
         for kernel, record in KERNELS.items():
             own = replace(config, kernel=record)
-            C, D = (to_numpy(solve_one(pair, own, PLAIN).solution.value) for pair in (there, back))
+            C, D = (solve_one(pair, own, PLAIN).functional_map for pair in (there, back))
             both = solve_one(there, own, "both directions")
             assert both.back is not None
-            E, F = to_numpy(both.solution.value), to_numpy(both.back)
+            E, F = both.functional_map, both.back
             maps = {
                 ("each by itself", "raw"): (C, D),
                 ("both at once", "raw"): (E, F),
@@ -218,7 +218,7 @@ def compare_losses(data_set: DataSet, names: Names, config: Config, losses: Sequ
             landmarks[wrong, 1] = right[np.roll(wrong, 1), 1]  # each takes the target of another wrong one
             for kernel, record in KERNELS.items():
                 for loss, result in solve_each(pair, replace(config, kernel=record), landmarks, formulations).items():
-                    C = to_numpy(result.solution.value)
+                    C = result.functional_map
                     row = {"loss": loss, "kernel": kernel, "wrong": share}
                     rows.append(row | {"raw": pair.error(C), "refined": pair.error(pair.refine(C))})
         return rows
@@ -228,7 +228,7 @@ def compare_transfer(data_set: DataSet, names: Names, config: Config) -> Rows:
     """Return relative errors of transferred coordinates and of a part's indicator, by C alone and with products."""
     with _quiet():
         pair = load_pair(data_set, names)
-        raw = to_numpy(solve_one(pair, config, PLAIN).solution.value)
+        raw = solve_one(pair, config, PLAIN).functional_map
         refined = pair.refine(raw)
         mesh = pair.source.mesh
         part = geodesic_distances(mesh, [pair.landmarks[0, 0]])[0] < 0.3

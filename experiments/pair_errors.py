@@ -20,7 +20,8 @@ from kfmaps.fmap.evaluate import error_curve
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.matching.finish import PostprocessedMap, refine_map
-from kfmaps.matching.fit import Fit, fit
+from kfmaps.matching.fit import fit
+from kfmaps.matching.solve import Fit
 from kfmaps.shape import Shape, prepare
 from store import Job, run_jobs
 

@@ -224,7 +224,7 @@ def test_residuals_of_features_are_relative_to_both_shapes(shape, other):
     task = assemble(*points.shapes, points.bases, points.descriptors, config, rng, (shape, other))
     relative = []
     for reverse in (False, True):
-        _, data = objective(task, config, np.eye(12), None, reverse).penalties["descriptors"]
+        _, data = objective(task, np.eye(12), None, reverse).penalties["descriptors"]
         assert isinstance(data, RobustData)
         relative.append(data.residuals(np.zeros((12, 12))))
     np.testing.assert_allclose(relative[0] + relative[1], 1.0)

@@ -18,13 +18,13 @@ from kfmaps.fmap.refine import Refined, Refinement
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.matching.candidates import FINE
-from kfmaps.matching.fit import Fit
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
 from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, torn_score
 from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
+from kfmaps.matching.solve import Fit
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
 

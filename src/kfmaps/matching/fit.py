@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kfmaps._arrays import Array, like, refuse, seed_of, to_numpy
+from kfmaps._arrays import Array, like, refuse, seed_of
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
@@ -19,54 +19,13 @@ from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import Loss, RobustData
 from kfmaps.fmap.minimize import MinimizeOptions, Objective, minimize
 from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
-from kfmaps.fmap.solvers import CG, Solution
+from kfmaps.fmap.solvers import CG
 from kfmaps.fmap.terms import laplacian_term
 from kfmaps.geometry.basis import Basis
-from kfmaps.kernels.kernels import describe_kernel
-from kfmaps.matching.assemble import FitProblem, assemble
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_for_fit, user_descriptors
-from kfmaps.matching.solve import Minimised, solve_problem
+from kfmaps.matching.solve import Fit, solve_problem
 from kfmaps.shape import Shape
-
-
-@dataclass(frozen=True, eq=False)
-class Fit:
-    """What :func:`fit` returns: a functional map and how it was found.
-
-    Attributes
-    ----------
-    functional_map : (k, k) float64
-        The minimiser; carries coefficients of functions from source to target.
-    solution : Solution
-        Status, steps and residuals of the solver.
-    energies : dict of str to float
-        Weighted value of each term at the minimiser.
-    rank : int
-        Features of the kernel that were kept.
-    slices : int
-        Slices left after compression.
-    kernel : str
-        With every γ a number.
-    config : Config
-        Of this fit; a search makes fits of other sizes than that of the match.
-    seconds : dict of str to float
-        Per stage.
-    back : (k, k) float64 or None
-        The map from target to source, where both directions were fitted.
-    weights : (g,) float64 or None
-        How far each landmark or descriptor was believed, 0 to 1, under a robust loss of them.
-    """
-
-    functional_map: np.ndarray
-    solution: Solution
-    energies: dict[str, float]
-    rank: int
-    slices: int
-    kernel: str
-    config: Config
-    seconds: dict[str, float]
-    back: np.ndarray | None = None
-    weights: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,26 +109,8 @@ def fit(
                 *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(seed), (source, target)
             )
         with clock("solve"):
-            found = solve_problem(task, config, clock.report, start)
-    return fit_of_problem(task, found, clock.seconds, points.weights)
-
-
-def fit_of_problem(
-    problem: FitProblem, found: Minimised, seconds: dict[str, float] | None = None, weights: np.ndarray | None = None
-) -> Fit:
-    """Return the record of what minimises a problem; see :class:`Fit` for the fields."""
-    return Fit(
-        functional_map=to_numpy(found.solution.value),
-        solution=found.solution,
-        energies=found.energies,
-        rank=problem.rank,
-        slices=problem.slices,
-        kernel=describe_kernel(problem.kernel),
-        config=problem.config,
-        seconds=seconds or {},
-        back=None if found.back is None else to_numpy(found.back),
-        weights=weights,
-    )
+            found = solve_problem(task, clock.report, start)
+    return replace(found, seconds=clock.seconds, weights=points.weights)
 
 
 def fit_points(

@@ -29,11 +29,11 @@ from kfmaps.matching.assemble import (
 )
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
 from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors
-from kfmaps.matching.fit import Fit, fit_of_problem, robust_weights
+from kfmaps.matching.fit import robust_weights
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
 from kfmaps.matching.score import Candidate
 from kfmaps.matching.self_maps import self_maps
-from kfmaps.matching.solve import minimize_problem
+from kfmaps.matching.solve import Fit, minimize_problem
 
 KernelWeights = tuple[float, ...]
 """Of SHOT, of landmarks and of extremities."""
@@ -262,7 +262,7 @@ def fit_descriptor_set(
         settings = replace(small, weights=replace(config.weights, orientation=fit.orientation))
         bases_k = (low[0].truncate(k), low[1].truncate(k))
         problem = FitProblem(settings, points.shapes, bases_k, features.kernel, used, features, blocks, orientations)
-        made.append(fit_of_problem(problem, minimize_problem(problem, settings)))
+        made.append(minimize_problem(problem))
     return made
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.special import expit
 
 if TYPE_CHECKING:
-    from kfmaps.matching.fit import Fit
+    from kfmaps.matching.solve import Fit
 
 T = TypeVar("T")
 

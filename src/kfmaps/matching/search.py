@@ -40,7 +40,7 @@ from kfmaps.matching.candidates import (
 )
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.features import user_descriptors
-from kfmaps.matching.fit import Fit, check_landmark_pairs
+from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, build_guidance, landmark_errors
 from kfmaps.matching.limb_exchange import compare_exchanged
@@ -60,6 +60,7 @@ from kfmaps.matching.score import (
     verdict,
 )
 from kfmaps.matching.self_maps import with_self_maps
+from kfmaps.matching.solve import Fit
 from kfmaps.shape import Shape
 
 _FEWER = 100

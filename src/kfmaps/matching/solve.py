@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -23,35 +23,67 @@ from kfmaps.fmap.minimize import (
 from kfmaps.fmap.optimal_transport import transport_penalty
 from kfmaps.fmap.solvers import CG, Solution
 from kfmaps.fmap.terms import laplacian_term
+from kfmaps.kernels.kernels import describe_kernel
 from kfmaps.matching.assemble import FitProblem
 
 
 @dataclass(frozen=True, eq=False)
-class Minimised:
-    """The solution from source to target, the map ``back (k_s, k_t)`` where both were asked for, and the energies."""
+class Fit:
+    """What :func:`kfmaps.matching.fit.fit` returns: a functional map and how it was found.
 
+    Attributes
+    ----------
+    functional_map : (k, k) float64
+        The minimiser; carries coefficients of functions from source to target.
+    solution : Solution
+        Status, steps and residuals of the solver.
+    energies : dict of str to float
+        Weighted value of each term at the minimiser.
+    rank : int
+        Features of the kernel that were kept.
+    slices : int
+        Slices left after compression.
+    kernel : str
+        With every γ a number.
+    config : Config
+        Of this fit; a search makes fits of other sizes than that of the match.
+    seconds : dict of str to float
+        Per stage.
+    back : (k, k) float64 or None
+        The map from target to source, where both directions were fitted.
+    weights : (g,) float64 or None
+        How far each landmark or descriptor was believed, 0 to 1, under a robust loss of them.
+    """
+
+    functional_map: np.ndarray
     solution: Solution
-    back: Array | None
     energies: dict[str, float]
+    rank: int
+    slices: int
+    kernel: str
+    config: Config
+    seconds: dict[str, float] = field(default_factory=dict)
+    back: np.ndarray | None = None
+    weights: np.ndarray | None = None
 
 
-def solve_problem(task: FitProblem, config: Config, report: Progress, start: Array | None = None) -> Minimised:
+def solve_problem(task: FitProblem, report: Progress, start: Array | None = None) -> Fit:
     """Return :func:`minimize_problem` from ``start``, which is checked where given; tell it as the stage "solve"."""
     if start is not None:
         right = task.energy.rhs()
         start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
         check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
         start = like(start, right)
-    limit = config.solver.max_iter if isinstance(config.solver, CG) else None
+    solver = task.config.solver
 
     def told(step: int, relative: float) -> None:
-        if limit is not None and isinstance(config.solver, CG):
+        if isinstance(solver, CG) and solver.max_iter:
             # Whichever criterion is nearer to being met.
-            by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
-            report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
+            by_size = np.log(max(relative, 1e-300)) / np.log(max(solver.rtol, 1e-16))
+            report("solve", float(np.clip(max(step / solver.max_iter, by_size), 0.0, 1.0)))
 
-    found = minimize_problem(task, config, start, told)
-    if found.solution.status == "breakdown" and config.formulation.constraint == "none":
+    found = minimize_problem(task, start, told)
+    if found.solution.status == "breakdown" and task.config.formulation.constraint == "none":
         text = (
             f"the solver broke down after {found.solution.steps} steps: the energy is not positive definite or a "
             "number is not finite, and the map is not its minimiser. Raise weights.laplacian, or look at kernel and "
@@ -61,11 +93,9 @@ def solve_problem(task: FitProblem, config: Config, report: Progress, start: Arr
     return found
 
 
-def minimize_problem(
-    task: FitProblem, config: Config, start: Array | None = None, told: ProgressCallback | None = None
-) -> Minimised:
-    """Return what minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
-    asked = config.formulation
+def minimize_problem(task: FitProblem, start: Array | None = None, told: ProgressCallback | None = None) -> Fit:
+    """Return what minimises what ``task`` and its formulation ask, reached from ``start``."""
+    config, asked = task.config, task.config.formulation
     how = MinimizeOptions(config.solver, config.preconditioner, asked.max_outer_iter)
     if asked.weighs_features or asked.coupled_bases or asked.transport_weight:
         start = minimize(Objective(task.energy), how, start, told).value
@@ -73,23 +103,32 @@ def minimize_problem(
     if asked.coupled_bases and start is not None:  # the bases that the least-squares map speaks for
         one, other = (basis.eigenvalues for basis in task.bases)
         rotation = couple_bases(one, other, start, asked.coupling_weight)
-    forth = objective(task, config, start, rotation)
-    if not asked.bidirectional:
+    forth = objective(task, start, rotation)
+    back = None
+    if asked.bidirectional:
+        turned = None if rotation is None else CoupledBases(rotation.U_t, rotation.U_s, rotation.history)
+        reverse = objective(task, None if start is None else start.T, turned, reverse=True)
+        size = typical(task.energy)
+        tied = asked.inverse_weight * size, asked.adjoint_weight * size
+        pair = fit_bidirectional(forth, reverse, *tied, how, (start, None), told)
+        solution, back = pair.forth, to_numpy(pair.back.value)
+    else:
         solution = minimize(forth, how, start, told)
-        return Minimised(solution, None, forth.breakdown(solution.value))
-    turned = None if rotation is None else CoupledBases(rotation.U_t, rotation.U_s, rotation.history)
-    back = objective(task, config, None if start is None else start.T, turned, reverse=True)
-    size = typical(task.energy)
-    tied = asked.inverse_weight * size, asked.adjoint_weight * size
-    pair = fit_bidirectional(forth, back, *tied, how, (start, None), told)
-    return Minimised(pair.forth, pair.back.value, forth.breakdown(pair.forth.value))
+    return Fit(
+        functional_map=to_numpy(solution.value),
+        solution=solution,
+        energies=forth.breakdown(solution.value),
+        rank=task.rank,
+        slices=task.slices,
+        kernel=describe_kernel(task.kernel),
+        config=config,
+        back=back,
+    )
 
 
-def objective(
-    task: FitProblem, config: Config, plain: Array | None, rotation: CoupledBases | None, reverse: bool = False
-) -> Objective:
+def objective(task: FitProblem, plain: Array | None, rotation: CoupledBases | None, reverse: bool = False) -> Objective:
     """Return what one direction minimises; ``plain`` is the least-squares map, where the formulation needs it."""
-    asked = config.formulation
+    config, asked = task.config, task.config.formulation
     energy = task.reverse if reverse else task.energy
     bases = task.bases[::-1] if reverse else task.bases
     penalties: dict[str, tuple[float, Penalty]] = {}
