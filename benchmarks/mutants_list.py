@@ -141,8 +141,8 @@ MUTANTS = tuple(
         ),
         ("self.gram_t @ C - 2 * mixed", "self.gram_t @ C - mixed", "test_energy -k laws"),
         (
-            "GramTerm(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)",
-            "GramTerm(sandwich(0, 0), sandwich(1, 0), trace)",
+            "source_term(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)",
+            "source_term(sandwich(0, 0), sandwich(1, 0), trace)",
             "test_energy",
         ),
         (

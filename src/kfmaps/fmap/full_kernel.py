@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kfmaps._arrays import Array, blocks, namespace, number
-from kfmaps.fmap.terms import Commutativity, GramTerm, check_same_count
+from kfmaps.fmap.terms import GramTerm, TwoSidedTerm, check_same_count, source_term
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import KernelLike, kernel_matrix
 
@@ -30,11 +30,11 @@ def kernel_descriptor_term(
         )
 
     trace = number(namespace(descriptors_t).linalg.trace(sandwich(1, 1)))
-    return GramTerm(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)
+    return source_term(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)
 
 
 @dataclass(frozen=True, eq=False)
-class HadamardCommutativity(Commutativity):
+class HadamardCommutativity(TwoSidedTerm):
     """The commutativity term of a whole kernel (equations 10 to 12); made by :func:`hadamard_term`."""
 
     kernel: KernelLike

@@ -28,7 +28,7 @@ import numpy as np
 
 from kfmaps._arrays import Array, check_positive, like, namespace, refuse, to_numpy
 from kfmaps.fmap.energy import Energy
-from kfmaps.fmap.terms import Elementwise, GramTerm, Term, operator_term
+from kfmaps.fmap.terms import Elementwise, Term, operator_term, source_term
 
 LossName = Literal["squared", "huber", "l21", "geman"]
 _LOSSES = get_args(LossName)
@@ -126,7 +126,7 @@ class RobustData:
         P_s, P_t = self.coefficients_s, self.coefficients_t
         weighted = P_s * w[None, :]
         total = 0.5 * float(namespace(P_t).sum(P_t * P_t * w[None, :]))
-        data: Term = GramTerm(weighted @ P_s.T, P_t @ weighted.T, total)
+        data: Term = source_term(weighted @ P_s.T, P_t @ weighted.T, total)
         if self.slices_s is None or self.slices_t is None or not self.commutativity:
             return data
         root = namespace(w).sqrt(w)[:, None, None]

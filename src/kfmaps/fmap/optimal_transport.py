@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from kfmaps._arrays import Array, check_positive, namespace, to_numpy
-from kfmaps.fmap.terms import GramTerm, Term
+from kfmaps.fmap.terms import Term, source_term
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import stratified_samples
 
@@ -55,7 +55,7 @@ class TransportPenalty:
         cross = self.functions_t.T @ (plan @ self.functions_s)
         gram = self.functions_s.T @ (leaving[:, None] * self.functions_s)
         total = 0.5 * float(xp.sum(arriving[:, None] * self.functions_t * self.functions_t))
-        return GramTerm(gram, cross, total)
+        return source_term(gram, cross, total)
 
     def _solved(self, C: Array) -> tuple[Array, float]:
         """The plan at ``C`` and the value; those of the last map are kept, since both are asked for in turn."""

@@ -90,61 +90,16 @@ def complete_term(term: Any) -> Term:
 
 
 @dataclass(frozen=True, eq=False)
-class GramTerm:
-    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``, a term of one or two Gram matrices."""
+class TwoSidedTerm:
+    """What terms ``½⟨C, gram_t C + C gram_s − 2 M(C)⟩`` share; in a commutativity ``M(C)`` is ``Σᵢ X_tⁱ C X_sⁱ``."""
 
-    gram_s: Array  # (k_s, k_s)
-    cross: Array  # (k_t, k_s)
-    total: float
-    gram_t: Array | None = None  # (k_t, k_t): ``None`` stands for zeros
+    gram_s: Array  # (k_s, k_s), in a commutativity ``Σᵢ X Xᵀ`` of the shape's operators
+    gram_t: Array  # (k_t, k_t)
 
-    def apply(self, C: Array) -> Array:
-        return C @ self.gram_s if self.gram_t is None else self.gram_t @ C + C @ self.gram_s
-
-    def rhs(self) -> Array:
-        return self.cross
-
-    def diagonal(self) -> Array:
-        diagonal = namespace(self.cross).linalg.diagonal
-        return self._sum(diagonal(self.gram_s), None if self.gram_t is None else diagonal(self.gram_t))
-
-    def constant(self) -> float:
-        return self.total
-
-    def sides(self) -> tuple[Array, Array]:
-        return _zeros(self.cross.shape[0], self.gram_s) if self.gram_t is None else self.gram_t, self.gram_s
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        of_t = None if self.gram_t is None else rotate_gram(self.gram_t, U_t)
-        return self._sum(rotate_gram(self.gram_s, U_s), of_t)
-
-    def _sum(self, of_s: Array, of_t: Array | None) -> Array:
-        if of_t is None:
-            return namespace(of_s).broadcast_to(of_s[None, :], self.cross.shape)
-        return of_t[:, None] + of_s[None, :]
-
-
-def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> GramTerm:
-    """Return the preservation of ``features_s (n_s, r)``, ``features_t (n_t, r)``: ``½‖C Φ_s⁺ W_s − Φ_t⁺ W_t‖²``."""
-    check_same_count(features_s, features_t)
-    coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
-    return GramTerm(
-        coefficients_s @ coefficients_s.T,
-        coefficients_t @ coefficients_s.T,
-        0.5 * inner(coefficients_t, coefficients_t),
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class Commutativity:
-    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²``: what does not hang on how the operators are multiplied with."""
-
-    gram_s: Array  # (k_s, k_s): ``Σᵢ X Xᵀ`` of both shapes
-    gram_t: Array
-
-    def coupling(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
-        """Return ``Σᵢ diag(X_tⁱ) diag(X_sⁱ)ᵀ`` of the operators rotated by ``U_t`` and ``U_s``, where given."""
-        raise NotImplementedError
+    def coupling(self, U_t: Array | None = None, U_s: Array | None = None) -> Array | float:
+        """Return the diagonal of ``M`` in bases rotated by ``U_t`` and ``U_s``, where given; 0 without ``M``."""
+        del U_t, U_s
+        return 0.0
 
     def rhs(self) -> Array:
         shape = (self.gram_t.shape[0], self.gram_s.shape[0])
@@ -166,7 +121,37 @@ class Commutativity:
 
 
 @dataclass(frozen=True, eq=False)
-class OperatorCommutativity(Commutativity):
+class GramTerm(TwoSidedTerm):
+    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``, a term of two Gram matrices."""
+
+    cross: Array  # (k_t, k_s)
+    total: float
+
+    def apply(self, C: Array) -> Array:
+        return self.gram_t @ C + C @ self.gram_s
+
+    def rhs(self) -> Array:
+        return self.cross
+
+    def constant(self) -> float:
+        return self.total
+
+
+def source_term(gram_s: Array, cross: Array, total: float) -> GramTerm:
+    """Return ``½⟨C, C gram_s⟩ − ⟨cross, C⟩ + total``, a term of one Gram matrix."""
+    return GramTerm(gram_s, _zeros(cross.shape[0], gram_s), cross, total)
+
+
+def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> GramTerm:
+    """Return the preservation of ``features_s (n_s, r)``, ``features_t (n_t, r)``: ``½‖C Φ_s⁺ W_s − Φ_t⁺ W_t‖²``."""
+    check_same_count(features_s, features_t)
+    coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
+    total = 0.5 * inner(coefficients_t, coefficients_t)
+    return source_term(coefficients_s @ coefficients_s.T, coefficients_t @ coefficients_s.T, total)
+
+
+@dataclass(frozen=True, eq=False)
+class OperatorCommutativity(TwoSidedTerm):
     """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`operator_term`.
 
     ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the orientation
@@ -300,7 +285,7 @@ def laplacian_term(
 def inverse_term(back: Array) -> GramTerm:
     """Return ``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
     k_s, k_t = back.shape
-    return GramTerm(back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t), back.T @ back)
+    return GramTerm(back @ back.T, back.T @ back, 2.0 * back.T, 0.5 * (k_s + k_t))
 
 
 def adjoint_term(back: Array) -> GramTerm:
@@ -310,7 +295,7 @@ def adjoint_term(back: Array) -> GramTerm:
     """
     xp = namespace(back)
     one = xp.eye(back.shape[0], dtype=back.dtype, device=back.device)
-    return GramTerm(one, back.T, 0.5 * inner(back, back))
+    return source_term(one, back.T, 0.5 * inner(back, back))
 
 
 def _zeros(k: int, like: Array) -> Array:

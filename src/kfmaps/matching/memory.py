@@ -16,9 +16,9 @@ def check_match_memory(config: Config, n_s: int, n_t: int, landmarks: int = 0) -
     most = config.fit_samples or max(n_s, n_t)
     rows = min(n_s, most) + min(n_t, most)
     count = max(config.descriptors.n_spectral, landmarks)
-    remedy = "lower descriptors.count (--descriptors); 100 are usual"
+    remedy = "lower descriptors.n_spectral; 100 are usual"
     check_memory(8.0 * rows * count, "settings", f"{count:,} descriptors of {rows:,} points", remedy)
     samples = min(config.nystrom.samples, n_s + n_t)
-    remedy = "lower nystrom.samples (--samples); 400 are usual"
+    remedy = "lower nystrom.samples; 400 are usual"
     need = 8.0 * samples * (samples + rows)
     check_memory(need, "settings", f"{samples:,} Nyström samples of {rows:,} points", remedy)
