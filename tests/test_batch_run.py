@@ -98,7 +98,7 @@ def test_a_killed_worker_costs_nothing(tmp_path: Path) -> None:
     assert {event["event"] for event in events} == {"begin", "worker died", "pair", "end"}
     assert [r.status for r in outcome.results] == ["done"] * 12
     assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {killed[0]: 2}
-    assert len(list((plan.folder / "pairs").iterdir())) == outcome.matched == 12
+    assert len(list((plan.folder / "pairs").iterdir())) == 12
     assert shape_attempts(plan) == [1] * 4
     alone = plan_of(tmp_path / "c", tmp_path / "alone")
     for result in done(alone):
@@ -120,7 +120,6 @@ def test_a_killed_run_goes_on_where_it_stopped(tmp_path: Path) -> None:
     plan = plan_of(folder, out)
     assert len(plan.todo) == 20 - len(kept) > 0
     outcome = run_batch(plan, workers=2, worst=0)
-    assert outcome.matched == len(plan.todo)
     assert [r.status for r in outcome.results] == ["done"] * 20
     assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept
     assert sum(r.attempts - 1 for r in outcome.results) <= 1  # the one that was under way
@@ -164,19 +163,20 @@ class Machine(WorkerPool):
 def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kfmaps.batch.run._check_workers", lambda *_: None)
     plan = plan_of(write_collection(tmp_path / "c", 3), tmp_path / "out")
-    told: list[RunStatus] = []
+    told: list[tuple[RunStatus, Result | None]] = []
     log: list[str] = []
 
     def note(_event: str, text: str, **_: object) -> None:
         log.append(text)
 
-    results = list(_match_pairs(plan, Machine("b1"), lambda status, _result: told.append(status), note))
+    _match_pairs(plan, Machine("b1"), lambda *one: told.append(one), note)
+    results = [result for _, result in told if result is not None]
     failed = [r for r in results if r.status == "failed"]
     assert {(r.source, r.target) for r in results if r.status == "done"} == {("b0", "b2"), ("b2", "b0")}
     assert len(failed) == 4
     assert all("shape b1 could not be prepared: 3 workers died" in r.reason for r in failed)
-    assert told[-1].remaining == 0
-    assert str(told[-1]) == "pairs 6/6 (4 failed), finished"
+    assert told[-1][0].remaining == 0
+    assert str(told[-1][0]) == "pairs 6/6 (4 failed), finished"
     assert sum("shape b1 could not be prepared" in line for line in log) == 5  # itself and its pairs
 
 
@@ -235,11 +235,11 @@ def test_a_running_scheduler(tmp_path: Path) -> None:
     options["dashboard_address"] = "127.0.0.1:0"
     with LocalCluster(host="127.0.0.1", protocol="tcp://", **options) as cluster:
         address = str(getattr(cluster, "scheduler_address"))  # noqa: B009  (typed as if it were asynchronous)
-        outcome = run_batch(plan_of(folder, tmp_path / "out"), scheduler=address, worst=0)
+        outcome = run_batch(plan_of(folder, tmp_path / "out"), workers=address, worst=0)
         assert [r.status for r in outcome.results] == ["done"] * 6
         plan = plan_of(folder, tmp_path / "other")
         (tmp_path / "other" / "settings.json").unlink()
-        with WorkerPool(scheduler=address) as pool, pytest.raises(InvalidInput, match="on all of them"):
+        with WorkerPool(workers=address) as pool, pytest.raises(InvalidInput, match="on all of them"):
             _check_workers(plan, pool)
 
 
@@ -278,11 +278,11 @@ def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
     with dask_processes(tmp_path, 2) as address:
         with _running_workers(address) as workers:
             until(lambda: len(workers.scheduler_info()["workers"]) == 2)
-        outcome = run_batch(plan, scheduler=address, worst=0, callback=kill_one)
+        outcome = run_batch(plan, workers=address, worst=0, callback=kill_one)
     ((process, key),) = killed
     assert [r.status for r in outcome.results] == ["done"] * 12
     assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {key: 2}
-    assert len(list((plan.folder / "pairs").iterdir())) == outcome.matched == 12
+    assert len(list((plan.folder / "pairs").iterdir())) == 12
     assert shape_attempts(plan) == [1] * 4
     last = max(outcome.results, key=lambda r: r.finished)
     assert not last.worker.endswith(f":{process}")
@@ -305,7 +305,7 @@ def test_dask_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setitem(sys.modules, "distributed", None)
     for scheduler in (None, "tcp://127.0.0.1:9"):
         with pytest.raises(MissingDependency, match=r"install 'dask"):
-            run_batch(plan, scheduler=scheduler)
+            run_batch(plan, workers=scheduler)
 
 
 def test_one_run_at_a_time(tmp_path: Path) -> None:

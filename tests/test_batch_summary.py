@@ -140,8 +140,9 @@ def test_outputs_come_from_the_result_files(folder: Path, tmp_path: Path) -> Non
     result_path(tmp_path, "broken").write_text("{")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        outcome = run_batch(plan_of(folder, tmp_path), name="c", worst=1)
-    assert outcome.matched == 0
+        again = plan_of(folder, tmp_path)
+        assert again.todo == ()
+        outcome = run_batch(again, name="c", worst=1)
     assert len(outcome.results) == 6
     assert all_results(tmp_path, plan.spec.digest) == list(outcome.results)
     # A worker killed between writing a result and renaming it leaves the whole text under its temporary name.

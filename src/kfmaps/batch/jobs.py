@@ -41,19 +41,18 @@ _MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[
 class WorkerPool:
     """Dask workers, started when they are first needed; a context that ends them.
 
-    ``count``: worker processes on this machine; by default one for each core; ``scheduler``: address of a running Dask
-    scheduler, to use its workers instead; ``progress``: for :meth:`map`; ``log``: called when a worker dies
+    ``workers``: processes on this machine, by default one for each core, or the address of a running Dask scheduler, to
+    use its workers instead; ``progress``: for :meth:`map`; ``log``: called when a worker dies
     (:data:`kfmaps.batch.progress.Log`). ``begun`` has the number of each item under way, and when it began.
     """
 
     def __init__(
         self,
-        count: int | None = None,
-        scheduler: str | None = None,
+        workers: int | str | None = None,
         progress: CountProgress | None = None,
         log: Callable[..., None] | None = None,
     ) -> None:
-        self.count, self.scheduler = count, scheduler
+        self.workers = workers
         self.progress = progress or (lambda _what, _done, _of: None)
         self.log = log or (lambda *_, **__: None)
         self.begun: dict[int, float] = {}
@@ -71,7 +70,8 @@ class WorkerPool:
     def client(self) -> Client:
         """The connection to the workers, which are started now if they were not."""
         if self._client is None:
-            where = _running_workers(self.scheduler) if self.scheduler else _local_workers(self.count)
+            asked = self.workers
+            where = _running_workers(asked) if isinstance(asked, str) else _local_workers(asked)
             self._client = self._stack.enter_context(where)
             threads: Any = self._client.nthreads()
             self.n_threads = sum(threads.values())
@@ -187,7 +187,7 @@ def dask_setup(worker: object) -> None:
 
 
 @contextmanager
-def _local_workers(count: int | None = None) -> Iterator[Client]:
+def _local_workers(count: int | None) -> Iterator[Client]:
     """Start worker processes on this machine, one task and one BLAS thread each, gone when the block ends.
 
     They listen on the loopback address only and speak TLS with certificates made for this run: whoever can talk to a

@@ -46,7 +46,6 @@ class BatchResult:
     """What came of a run."""
 
     results: tuple[Result, ...]  # of every pair that was asked for and has one, by source and target
-    matched: int  # pairs that this run worked on
     interrupted: bool  # whether the user or a signal stopped it; the same call goes on
     files: tuple[Path, ...]  # tables and summary
     consistent: ConsistentResult | None = None  # what came of making the maps agree, where that was asked for
@@ -55,8 +54,7 @@ class BatchResult:
 def run_batch(
     plan: Plan,
     *,
-    workers: int | None = None,
-    scheduler: str | None = None,
+    workers: int | str | None = None,
     name: str = "collection",
     worst: int = 6,
     callback: Callback | None = None,
@@ -65,23 +63,21 @@ def run_batch(
 ) -> BatchResult:
     """Do what the plan leaves to do, then write the tables and the summary.
 
-    ``plan``: from :func:`~kfmaps.batch.plan.make_plan`; ``workers``, ``scheduler`` and ``progress``: see
+    ``plan``: from :func:`~kfmaps.batch.plan.make_plan`; ``workers`` and ``progress``: see
     :class:`~kfmaps.batch.jobs.WorkerPool`; ``name``: the summary's title; ``worst``: how many of the worst pairs the
     summary shows as pictures; ``callback``: called with how the run stands, and with each result; ``consistent``:
     whether the maps are made to agree in the end (:func:`~kfmaps.batch.consistent.make_consistent`).
     """
-    new: list[Result] = []
     interrupted, agreed = False, None
     log = log_to(plan.folder)
     asked = {task.pair for task in plan.tasks}
-    with _locked(plan.folder), _tidied(plan), WorkerPool(workers, scheduler, progress, log) as pool:
+    with _locked(plan.folder), _tidied(plan), WorkerPool(workers, progress, log) as pool:
         of, todo, settings = len(plan.tasks), len(plan.todo), plan.spec.digest
         told = {"todo": todo, "pairs": of, "settings": settings, "version": kfmaps.__version__}
         log("begin", f"{todo} of {of} pairs to match", **told)
         try:
             if plan.todo:
-                for result in _match_pairs(plan, pool, callback, log):
-                    new.append(result)
+                _match_pairs(plan, pool, callback, log)
             if consistent:
                 matched = all_results(plan.folder, plan.spec.digest)
                 agreed = make_consistent(plan, [r for r in matched if r.pair in asked], pool)
@@ -106,11 +102,11 @@ def run_batch(
     results = tuple(r for r in everything if r.pair in asked)
     failed = sum(r.status == "failed" for r in results)
     log("end", f"{len(results)} pairs have a result, {failed} of them failed", pairs=len(results), failed=failed)
-    return BatchResult(results, len(new), interrupted, files, agreed)
+    return BatchResult(results, interrupted, files, agreed)
 
 
-def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: Log) -> Iterator[Result]:
-    """Prepare the shapes and match the pairs that the plan leaves to do; the results, in the order in which they come.
+def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: Log) -> None:
+    """Prepare the shapes and match the pairs that the plan leaves to do.
 
     When a worker dies, Dask hands its task to another, which keeps what is finished and begins the rest anew. A task
     that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
@@ -160,7 +156,6 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
             left.end(number, result.seconds["total"] if result.status == "done" else None)
             done.append(result)
             tell(result)
-            yield result
 
 
 def _attempts(task: ShapeTask | PairTask) -> int:

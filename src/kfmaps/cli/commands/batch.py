@@ -66,7 +66,7 @@ def batch(
     Stopped and started again with the same arguments it goes on where it was.
     """
     check_required(require)
-    count, scheduler = parse_workers(workers)
+    processes = parse_workers(workers)
     use_files = landmarks is None
     lines = () if landmarks in (None, "none") else line_numbers(landmarks, "--landmarks")
     if graph is not None and pairs is not None:
@@ -77,7 +77,7 @@ def batch(
     spec = RunSpec(config, seed, lines, use_files, identity)
     with RunReport(quiet or json) as report:
         if graph is not None:
-            with WorkerPool(count, scheduler, report.stage, log_to(output)) as pool:
+            with WorkerPool(processes, report.stage, log_to(output)) as pool:
                 listed = graph_pairs(collection, spec, output, graph, pool)
         plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
         if not (plan.folder / _TOML).exists():
@@ -85,8 +85,7 @@ def batch(
         report.say(describe_plan(plan))
         outcome = run_batch(
             plan,
-            workers=count,
-            scheduler=scheduler,
+            workers=processes,
             name=folder.resolve().name,
             callback=report.status,
             consistent=consistent,
@@ -105,11 +104,9 @@ def batch(
         raise typer.Exit(UNSURE)
 
 
-def parse_workers(text: str | None) -> tuple[int | None, str | None]:
+def parse_workers(text: str | None) -> int | str | None:
     """Return the number of ``--workers``, or the address of a scheduler."""
-    if text is None:
-        return None, None
-    return (check_count(int(text), "--workers"), None) if text.lstrip("-").isdecimal() else (None, text)
+    return check_count(int(text), "--workers") if text and text.lstrip("-").isdecimal() else text
 
 
 def describe_plan(plan: Plan) -> str:

@@ -150,7 +150,7 @@ def transfer(
 
     Stopped and started again with the same arguments it goes on where it was.
     """
-    count, scheduler = parse_workers(workers)
+    processes = parse_workers(workers)
     collection = find_collection(scans)
     templates = read_templates([*given, *(more or ())], collection)
     for name in keep or ():
@@ -169,8 +169,7 @@ def transfer(
         report.say(describe_plan(plan))
         outcome = run_batch(
             plan,
-            workers=count,
-            scheduler=scheduler,
+            workers=processes,
             name=scans.resolve().name,
             worst=0,
             callback=report.status,
