@@ -128,18 +128,18 @@ def fit_bidirectional(
     inverse: float,
     adjoint: float,
     how: MinimizeOptions,
-    start: tuple[Array | None, Array | None] = (None, None),
+    start: Array | None = None,
     progress: ProgressCallback | None = None,
 ) -> BidirectionalSolution:
     """Minimise both directions at once, ``C`` forth and ``D`` back.
 
     The objective is the sum of both and ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²`` (Eynard et al.,
     Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is quadratic in each map;
-    they are minimised in turn, from the uncoupled ones, until the sum hardly falls. ``start`` holds a map forth and one
-    back, or ``None``; ``how`` and ``progress`` are those of :func:`minimize`.
+    they are minimised in turn, from the uncoupled ones, until the sum hardly falls. ``start`` is a map forth; ``how``
+    and ``progress`` are those of :func:`minimize`.
     """
-    one = minimize(forth, how, start[0], progress)
-    other = minimize(back, how, start[1], progress)
+    one = minimize(forth, how, start, progress)
+    other = minimize(back, how, None, progress)
     tied = {name: w for name, w in (("inverse", inverse), ("adjoint", adjoint)) if w > 0}
 
     def with_other(objective: Objective, there: Array) -> Objective:

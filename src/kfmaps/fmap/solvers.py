@@ -59,7 +59,7 @@ class CG:
 
 @settings_record
 class Direct:
-    """The dense system, column by column, solved by Cholesky or least squares: for tests and small bases."""
+    """The dense system, column by column, solved by least squares: for tests and small bases."""
 
     limit: int = setting(4000, "most unknowns that the dense solver takes", low=1)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -149,25 +149,28 @@ def _spectral_descriptors(
     side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
 ) -> list[Array]:
     """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
-    marks = len(landmarks) if config.landmark_descriptor != "none" else 0
-    with_signature = config.signature != "none"
-    if marks == 0 and not with_signature:
-        return []
-    if config.energy_sampling == "every-nth":
-        return [_every_nth(side, bases, config, landmarks)]
-    on_signature, per_landmark = spectral_shares(config, marks)
+    marks = landmarks if config.landmark_descriptor != "none" else landmarks[:0]
+    on_signature, per_landmark = spectral_shares(config, len(marks))
     parts = []
     if on_signature:
         parts.append(_family(config.signature, bases[side], bases, None, on_signature))
-    if per_landmark and marks:
-        parts.append(_family(config.landmark_descriptor, bases[side], bases, landmarks, per_landmark))
-    return parts
+    if per_landmark and len(marks):
+        parts.append(_family(config.landmark_descriptor, bases[side], bases, marks, per_landmark))
+    if config.energy_sampling == "even" or not parts:
+        return parts
+    everything = namespace(*parts).concat(parts, axis=1)
+    return [take(everything, _chosen(everything.shape[1], config.n_spectral), axis=1)]
 
 
 def spectral_shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
-    """Return how many spectral descriptors the signature has, and each of ``marks`` landmarks."""
+    """Return how many spectral descriptors the signature has, and each of ``marks`` landmarks.
+
+    In the layout "every-nth" it is those of which every n-th is taken.
+    """
+    if config.energy_sampling == "every-nth":
+        return 0 if config.signature == "none" else EVERY, EVERY
     if config.signature == "none":
-        return 0, max(1, config.n_spectral // marks)
+        return 0, max(1, config.n_spectral // max(marks, 1))
     if marks == 0:
         return config.n_spectral, 0
     per_landmark = max(1, int((1 - config.signature_share) * config.n_spectral) // marks)
@@ -177,13 +180,9 @@ def spectral_shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
 def _landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
     """The landmark that each of the spectral descriptors is of, counted from 0, (d,); −1 for the signature."""
     marks = landmarks if config.landmark_descriptor != "none" else 0
-    if marks == 0 and config.signature == "none":
-        return np.zeros(0, dtype=np.int64)
-    if config.energy_sampling == "every-nth":
-        signature = 0 if config.signature == "none" else EVERY
-        return (_chosen(signature + EVERY * marks, config.n_spectral) - signature) // EVERY
     on_signature, per_landmark = spectral_shares(config, marks)
-    return np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
+    whose = np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
+    return whose if config.energy_sampling == "even" else whose[_chosen(len(whose), config.n_spectral)]
 
 
 def _chosen(total: int, count: int) -> np.ndarray:
@@ -199,19 +198,6 @@ def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.nda
     if landmarks is None:
         return wave_signature(basis, energies, sigma)
     return wave_map(basis, landmarks, energies, sigma)
-
-
-def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray) -> Array:
-    whole = replace(config, energy_sampling="even", signature_share=1.0)
-    parts = (
-        []
-        if config.signature == "none"
-        else _spectral_descriptors(side, bases, replace(whole, n_spectral=EVERY), landmarks[:0])
-    )
-    if len(landmarks) and config.landmark_descriptor != "none":
-        parts.append(_family(config.landmark_descriptor, bases[side], bases, landmarks, EVERY))
-    everything = namespace(*parts).concat(parts, axis=1)
-    return take(everything, _chosen(everything.shape[1], config.n_spectral), axis=1)
 
 
 def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:

@@ -110,7 +110,7 @@ def minimize_problem(task: FitProblem, start: Array | None = None, told: Progres
         reverse = objective(task, None if start is None else start.T, turned, reverse=True)
         size = typical(task.energy)
         tied = asked.inverse_weight * size, asked.adjoint_weight * size
-        pair = fit_bidirectional(forth, reverse, *tied, how, (start, None), told)
+        pair = fit_bidirectional(forth, reverse, *tied, how, start, told)
         solution, back = pair.forth, to_numpy(pair.back.value)
     else:
         solution = minimize(forth, how, start, told)
