@@ -141,7 +141,9 @@ def test_gradient_of_the_map_is_its_difference(parts, lessons):
             for p, d in zip(learned, direction, strict=True):
                 p += sign * step * d
             values.append(float(loss()))
-    assert (values[0] - values[1]) / (2 * step) == pytest.approx(slope, rel=1e-6)
+    # The direction may be almost one of no change: what the difference is off by goes with the gradient's length.
+    length = sum(float((p.grad**2).sum()) for p in learned if p.grad is not None) ** 0.5
+    assert (values[0] - values[1]) / (2 * step) == pytest.approx(slope, abs=1e-6 * length)
 
 
 def test_a_soft_map_becomes_the_map_to_the_nearest(lessons):
