@@ -10,6 +10,7 @@ import pytest
 from conftest import blob
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
+from kfmaps._progress import StageTimer
 from kfmaps.cli.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
 from kfmaps.datasets import largest_piece
@@ -19,6 +20,7 @@ from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area
 from kfmaps.io import load_map
 from kfmaps.matching import match as matching
+from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
@@ -34,6 +36,7 @@ from kfmaps.matching.partial.relaxation_labeling import (
 )
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
+from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result_groups import MatchPart
 from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import prepare
@@ -41,6 +44,13 @@ from test_search import SMALL
 
 PART = SCORE.part.calibration
 GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.matching.partial")
+
+
+def task_of(source, target, landmarks=None, config=SMALL):
+    """Two prepared shapes to match."""
+    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    return MatchTask((source.mesh, target.mesh), reindexing(source, target), config, pairs, 0, StageTimer())
+
 
 AUTO = replace(SMALL, partial=Partial("auto", samples=100, whole_samples=300))
 
@@ -248,8 +258,7 @@ def test_only_what_a_detour_explains_is_forgiven():
     ],
 )
 def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, told):
-    found = SimpleNamespace(part="target", scale=scale)
-    assert describe_part(found, "because") == told  # type: ignore[arg-type]
+    assert describe_part("target", scale, (np.ones(1), np.ones(1)), "because") == told
 
 
 @pytest.mark.parametrize(
@@ -283,7 +292,7 @@ def test_a_part_is_placed_in_units_of_the_whole(monkeypatch, which):
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
     for shapes in ((small, large), (large, small)):
         with pytest.raises(InvalidInput, match="enough"):
-            match_partial(*shapes, SMALL, which)
+            match_partial(task_of(*shapes), which, "because")
     assert seen == pytest.approx([1 / 3, 3] if which == "source" else [3, 1 / 3])
 
 
@@ -328,7 +337,7 @@ def test_two_parts_have_a_calibration_of_their_own(monkeypatch, which, word):
         return SimpleNamespace(registration=bent, overlap=overlap, scores=(score,), margin=3.0, unguided=far)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
-    found = match_partial(shape, shape, SMALL, which, landmarks=np.array([[3, 3], [50, 50]]))
+    found = match_partial(task_of(shape, shape, np.array([[3, 3], [50, 50]])), which, "because")[0]
     numbers = PART if which == "target" else SCORE.part.calibration_of_two
     assert found.confidence == pytest.approx(probability(score, 3.0, numbers=numbers), abs=1e-3)
     assert found.verdict == word
@@ -347,7 +356,7 @@ def test_landmarks_that_a_placement_keeps_without_them_support_it(monkeypatch):
     unguided[50] += [0.0, 0.0, 0.15]  # contradicted, so named; the others are where they belong
     one = SimpleNamespace(registration=bent, overlap=overlap, scores=(20.0,), margin=0.0, unguided=unguided)
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: one)
-    found = match_partial(shape, shape, SMALL, "both", landmarks=marks)
+    found = match_partial(task_of(shape, shape, marks), "both", "because")[0]
     near = (scale * geodesic_distances(shape.mesh, marks[:, 1]) < SCORE.landmark_radius).any(axis=0)
     areas = shape.basis.mass * half
     right = 1 / (1 + np.exp((0.05 - SCORE.landmark_error_middle) / SCORE.landmark_error_width))
@@ -355,7 +364,7 @@ def test_landmarks_that_a_placement_keeps_without_them_support_it(monkeypatch):
     assert 0.1 < support < 0.8
     assert found.confidence == pytest.approx(probability(20.0, 0.0, support=support, numbers=numbers), rel=1e-6)
     assert found.verdict == verdict(20.0, 0.0, support=support, numbers=numbers)
-    assert found.rejected_landmarks.tolist() == [1]
+    assert found.score.rejected_landmarks.tolist() == [1]
 
 
 def test_distances_decide_between_places_that_look_alike(rng):
@@ -445,9 +454,8 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(monkeypatch, pair, 
         tried.append(task.partial.reason)
         return SimpleNamespace(verdict="sure", confidence=0.6)
 
-    part = SimpleNamespace(verdict=word, confidence=told, whole=False, scale=0.1)
-    monkeypatch.setattr(matching, "_place_part", lambda *_: part)
-    monkeypatch.setattr(matching, "_part_result", lambda *_: part)
+    part = SimpleNamespace(verdict=word, confidence=told, partial=MatchPart(scale=0.1))
+    monkeypatch.setattr(matching, "match_partial", lambda *_: (part, False))
     monkeypatch.setattr(matching, "_match_wholes", wholes)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
@@ -475,17 +483,16 @@ def test_what_is_open_may_have_more_than_what_is_closed(
     """A scan with its floor holds a whole body, so the closed shape may be the part."""
     word, _, marked = word.partition(", ")
     landmarks = [[0, 0]] if marked else None
-    part = SimpleNamespace(verdict=word, confidence=0.6, whole=False, scale=scale, partial=MatchPart(scale=scale))
-    opposite = SimpleNamespace(verdict="likely", confidence=told, scale=scale_of_opposite)
+    part = SimpleNamespace(verdict=word, confidence=0.6, partial=MatchPart(scale=scale))
+    opposite = SimpleNamespace(verdict="likely", confidence=told, partial=MatchPart(scale=scale_of_opposite))
     answers = {"target": part, "source": opposite}
     tried = []
 
-    def place_part(_task, which, *_):
+    def matched(_task, which, *_):
         tried.append(which)
-        return answers[which]
+        return answers[which], False
 
-    monkeypatch.setattr(matching, "_place_part", place_part)
-    monkeypatch.setattr(matching, "_part_result", lambda _task, placed, _why: placed)
+    monkeypatch.setattr(matching, "match_partial", matched)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
     found = matching.match(pair.source, pair.target, config, landmarks=landmarks)

@@ -31,6 +31,7 @@ from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, Placement, shot_similarity
 from kfmaps.matching.score import SCORE, PartEvidence
 from kfmaps.shape import prepare
+from test_parts import task_of
 from test_search import SMALL
 
 GUARDS = ("kfmaps.matching.partial",)
@@ -247,9 +248,9 @@ def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better
         return _place_by_landmarks(*given)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial._place_by_landmarks", place_by_landmarks)
-    found = match_partial(source, target, config, "both", landmarks=np.stack([true[rows], rows], axis=1))
+    found = match_partial(task_of(source, target, np.stack([true[rows], rows], axis=1), config), "both", "because")[0]
     assert told == [True]  # what a contradicted landmark costs is that of two parts
-    assert len(found.rejected_landmarks) == 0
+    assert len(found.score.rejected_landmarks) == 0
     on, places = (true >= 0) & (found.target_to_source >= 0), source.mesh.vertices
     assert np.linalg.norm(places[found.target_to_source[on]] - places[true[on]], axis=1).mean() < 0.08
 

@@ -19,11 +19,11 @@ from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import PartDetection, detect_part
-from kfmaps.matching.partial.match_partial import PartialMatch, describe_part, match_partial
+from kfmaps.matching.partial.match_partial import match_partial
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import ONE_FIT, MatchPart, MatchRegistration, MatchScore
+from kfmaps.matching.result_groups import ONE_FIT, MatchPart
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import SearchResult, near_isometric, retry, search_map
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
@@ -62,14 +62,14 @@ def match(
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     seen = _part_suspected(task)
-    best, about = _match_part(task, seen, marks)
+    best, about = _match_part(task, seen)
     may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
     if best is None or (best.verdict != "sure" and may_be_whole):
         # A body with holes is found either way, one of other proportions as a whole alone.
         best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
     if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
         return best
-    return _compare_opposite(task, best, "target" if seen.which == "source" else "source", marks)
+    return _compare_opposite(task, best, "target" if seen.which == "source" else "source")
 
 
 def _likelier(first: Match | None, second: Match) -> Match:
@@ -77,20 +77,18 @@ def _likelier(first: Match | None, second: Match) -> Match:
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
 
 
-def _compare_opposite(
-    task: MatchTask, best: Match, which: Literal["source", "target"], landmarks: np.ndarray | None
-) -> Match:
+def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "target"]) -> Match:
     """Return ``best``, or the match with the other shape as the part: a scan with its floor has more than its template.
 
     One of the two has mostly shrunk as far as it may.
     """
     least = math.sqrt(SCORE.part.full_area)
-    part = _place_part(task, which, landmarks, "the other as a part", least)
-    if part.scale < least:
+    with task.clock("the other as a part"):
+        opposite, _ = match_partial(task, which, _HAS_MORE, least)
+    if (opposite.partial.scale or 0.0) < least:
         return best
     scale = best.partial.scale
-    has_shrunk = landmarks is None and scale is not None and scale < SCORE.part.shrunk_scale
-    opposite = _part_result(task, part, _HAS_MORE)
+    has_shrunk = len(task.landmarks) == 0 and scale is not None and scale < SCORE.part.shrunk_scale
     return opposite if has_shrunk else _likelier(best, opposite)
 
 
@@ -128,53 +126,16 @@ def _part_suspected(task: MatchTask) -> PartDetection:
     return detect_part(shapes[0].mesh, shapes[1].mesh)
 
 
-def _match_part(task: MatchTask, seen: PartDetection, landmarks: np.ndarray | None) -> tuple[Match | None, MatchPart]:
+def _match_part(task: MatchTask, seen: PartDetection) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, ``None`` where both are whole, and what a match of wholes says of it."""
     if seen.which == "none":
         return None, MatchPart(reason=seen.reason)
-    part = _place_part(task, seen.which, landmarks, "parts")
-    if task.config.partial.part != "auto" or (not part.whole and part.verdict != "unlikely"):
-        return _part_result(task, part, seen.reason), MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
-    but = "each covers all of the other" if part.whole else "it fits nowhere"
+    with task.clock("parts"):
+        part, covers = match_partial(task, seen.which, seen.reason)
+    if task.config.partial.part != "auto" or (not covers and part.verdict != "unlikely"):
+        return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
+    but = "each covers all of the other" if covers else "it fits nowhere"
     return None, MatchPart(reason=f"taken for whole: {seen.reason}, but {but}", suspected=True)
-
-
-def _place_part(
-    task: MatchTask,
-    which: Literal["source", "target", "both"],
-    landmarks: np.ndarray | None,
-    stage: str,
-    least_scale: float = 0.0,
-) -> PartialMatch:
-    """Return the placement of a part, timed as a ``stage``; a rough one where none is of ``least_scale``."""
-    with task.clock(stage):
-        return match_partial(
-            *task.shapes("preserving"),
-            task.config,
-            which,
-            landmarks=landmarks,
-            rng=task.seed,
-            progress=task.clock.report,
-            least_scale=least_scale,
-        )
-
-
-def _part_result(task: MatchTask, part: PartialMatch, why: str) -> Match:
-    """Return the match of a part and a whole; ``why`` it was taken for one."""
-    overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
-    registered = part.registered_vertices
-    score = MatchScore(part.scores, None, None, "a part bent onto the other", part.rejected_landmarks)
-    return task.result(
-        part.target_to_source,
-        part.functional_map,
-        part.local_confidence,
-        precise_map=task.pair.place(part.precise_map),
-        verdict=part.verdict,
-        confidence=part.confidence,
-        score=score,
-        registration=MatchRegistration(None if registered is None else task.pair.bent(registered)),
-        partial=MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps),
-    )
 
 
 def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[Array, Array] | None) -> SearchResult:

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
 import numpy as np
 
 from kfmaps._arrays import refuse, take, to_numpy
-from kfmaps._progress import Progress
-from kfmaps.config import Config
 from kfmaps.fmap.confidence import local_confidence
-from kfmaps.fmap.precise import PointMap, nearest_vertices
+from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.partial.place_part import PlacedPart, place_part
 from kfmaps.matching.partial.registration import scale_mesh
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import MatchPart, MatchRegistration, MatchScore
 from kfmaps.matching.score import SCORE, Calibration, landmark_support, part_landmark_cost, probability, verdict
 from kfmaps.shape import Shape
 
@@ -25,62 +25,32 @@ COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
 
 
-@dataclass(frozen=True, eq=False)
-class PartialMatch:
-    """A match of two cleaned shapes of which one is a part of the other."""
-
-    part: str  # "source", "target" or "both"
-    target_to_source: np.ndarray  # (n_t,): −1 where a vertex has no counterpart
-    # For each target vertex; where it has no counterpart that is the nearest point that could be one.
-    precise_map: PointMap
-    overlap_source: np.ndarray  # (n_s,): probability to be in the common part
-    overlap_target: np.ndarray
-    # (k_t, k_s): of the map on the common part; as many functions of the part as have the whole's frequencies.
-    functional_map: np.ndarray
-    local_confidence: np.ndarray  # (n_t,): see :func:`kfmaps.fmap.confidence.local_confidence`
-    # (n_s, 3): the source's vertices on the target at unit area, where the source is the part.
-    registered_vertices: np.ndarray | None
-    scale: float  # √area of the part over that of the whole
-    verdict: str
-    confidence: float  # probability that the map is right
-    scores: tuple[float, ...]  # of the candidates, best first
-    rejected_landmarks: np.ndarray  # (l,): numbers of landmarks that the map contradicts
-    whole: bool  # whether the common part is most of both shapes
-
-
 def match_partial(
-    source: Shape,
-    target: Shape,
-    config: Config,
-    which: Literal["source", "target", "both"],
-    *,
-    landmarks: np.ndarray | None = None,
-    rng: int = 0,
-    progress: Progress | None = None,
-    least_scale: float = 0.0,
-) -> PartialMatch:
-    """Match two prepared shapes of which one is a part.
+    task: MatchTask, which: Literal["source", "target", "both"], why: str, least_scale: float = 0.0
+) -> tuple[Match, bool]:
+    """Match two shapes of which one is a part; return the match, and whether the common part is most of both.
 
     ``which``: the part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
-    target where their units cannot be compared. ``landmarks (l, 2)``: pairs "source vertex, target vertex";
-    ``least_scale``: see :func:`kfmaps.matching.partial.place_part.place_part`.
+    target where their units cannot be compared. ``why``: for what reason it is taken for a part; ``least_scale``: see
+    :func:`kfmaps.matching.partial.place_part.place_part`.
     """
+    source, target = task.shapes("preserving")
     for shape in (source, target):
         if len(shape.mesh.faces) == 0:
             raise refuse(shape.name, "a surface with triangles", "a point cloud", "match it as a whole: partial 'none'")
     ratio = None if source.extent is None or target.extent is None else target.extent / source.extent
     forward = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
     part, whole = (target, source) if forward else (source, target)
-    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+    pairs = task.pair.landmarks(task.landmarks)
     place_with = partial(
         place_part,
         part.mesh,
         whole.mesh,
-        config,
+        task.config,
         ratio=ratio if forward or ratio is None else 1 / ratio,
         both_partial=which == "both",
-        rng=rng,
-        progress=None if progress is None else lambda done: progress("parts", done),
+        rng=task.seed,
+        progress=lambda done: task.clock.report("parts", done),
         least_scale=least_scale,
     )
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
@@ -98,21 +68,23 @@ def match_partial(
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
     common = float(masses[0] @ found.overlap.part), float(masses[1] @ found.overlap.whole)
-    return PartialMatch(
-        which,
+    rejected = np.flatnonzero(errors > SCORE.part.max_landmark_error)
+    # The source's vertices on the target at unit area, where the source is the part.
+    registered = None if forward else task.pair.bent(found.registration.vertices)
+    reason = describe_part(which, scale, overlaps, why)
+    match = task.result(
         points,
-        place,
-        *overlaps,
         _slanted_functional_map(points, source, target, scale if forward else 1 / scale),
         trust,
-        None if forward else found.registration.vertices,
-        scale,
-        verdict(found.scores[0], found.margin, support=support, numbers=numbers),
-        probability(found.scores[0], found.margin, support=support, numbers=numbers),
-        found.scores,
-        np.flatnonzero(errors > SCORE.part.max_landmark_error),
-        min(common) > SCORE.part.whole_overlap,
+        # Where a vertex has no counterpart that is the nearest point that could be one.
+        precise_map=task.pair.place(place),
+        verdict=verdict(found.scores[0], found.margin, support=support, numbers=numbers),
+        confidence=probability(found.scores[0], found.margin, support=support, numbers=numbers),
+        score=MatchScore(found.scores, None, None, "a part bent onto the other", rejected),
+        registration=MatchRegistration(registered),
+        partial=MatchPart(which, reason, scale, True, *task.pair.overlap(*overlaps)),
     )
+    return match, min(common) > SCORE.part.whole_overlap
 
 
 def _place_by_landmarks(
@@ -158,13 +130,16 @@ def _slanted_functional_map(points: np.ndarray, source: Shape, target: Shape, ra
     return weighted.T @ pulled
 
 
-def describe_part(found: PartialMatch, reason: str) -> str:
-    """Return one line about what was taken for a part, with the ``reason``."""
-    if found.part == "both":
-        shares = found.overlap_source.mean(), found.overlap_target.mean()
+def describe_part(which: str, scale: float, overlaps: tuple[np.ndarray, np.ndarray], reason: str) -> str:
+    """Return one line about what was taken for a part, with the ``reason``.
+
+    ``scale``: √area of the part over that of the whole; ``overlaps (n_s,)``, ``(n_t,)``: what both have in common.
+    """
+    if which == "both":
+        shares = overlaps[0].mean(), overlaps[1].mean()
         return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {reason}"
-    share = found.scale**2
+    share = scale**2
     holes = 0.9  # share of the other's area from which a part is called a shape with holes
     if share >= holes:
-        return f"the {found.part} has holes ({max(1 - share, 0):.0%} is missing)"
-    return f"the {found.part} is a part, {share:.0%} of the other's area; {reason}"
+        return f"the {which} has holes ({max(1 - share, 0):.0%} is missing)"
+    return f"the {which} is a part, {share:.0%} of the other's area; {reason}"
