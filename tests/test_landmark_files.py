@@ -13,7 +13,6 @@ import kfmaps
 from commandline import run
 from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
-from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, save_map, write_mesh
 from kfmaps.io.landmark_files import (
@@ -30,6 +29,7 @@ from kfmaps.io.landmark_files import (
     write_landmark_sets,
 )
 from kfmaps.io.named_points import place_landmarks, read_landmark_pairs, read_named_points, transfer_points
+from kfmaps.io.transfer import find_counterparts
 from kfmaps.matching.result import Match
 
 GUARDS = ("kfmaps.io.landmark_files", "kfmaps.io.named_points")
@@ -197,7 +197,7 @@ def test_landmarks_go_to_the_closest_point() -> None:
     missing = LandmarkSet(given.names, np.vstack([given.points[:1], [[np.nan] * 3], given.points[2:]]))
     placed = place_landmarks(missing, mesh, "l")
     np.testing.assert_array_equal(placed.vertices, [10, -1, 500])
-    carried = transfer_points(placed, mesh, mesh, vertex_point_map(np.arange(600), mesh))
+    carried = transfer_points(placed, find_counterparts(Match(np.arange(600)), mesh, mesh))
     np.testing.assert_array_equal(carried.vertices, [10, -1, 500])
     assert np.isnan(carried.points[1]).all()
     with pytest.warns(KfmapsWarning, match=r"far from the surface.*b \("):

@@ -19,6 +19,7 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, write_landmark_sets
+from kfmaps.io.transfer import Counterparts
 from kfmaps.matching.result import Match
 
 GUARDS = ("kfmaps.batch.landmark_tables",)
@@ -44,8 +45,8 @@ def stretched(mesh: Mesh) -> Mesh:
 
 def differences(source: Mesh, target: Mesh, place: PointMap, known: np.ndarray | None = None) -> list[np.ndarray]:
     known = np.ones(len(target.vertices), dtype=bool) if known is None else known
-    common = np.ones(len(source.vertices), dtype=bool) if len(known) != len(source.vertices) else known
-    return list(local_differences(place, source, target, POINTS, known, common))
+    ways = Counterparts(Match(np.zeros(len(known), dtype=np.int64)), (source, target), place, known)
+    return list(local_differences(ways, POINTS))
 
 
 def test_a_known_stretch_is_found() -> None:

@@ -30,7 +30,7 @@ from kfmaps.io.landmark_files import (
 from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import NamedPoints
 from kfmaps.io.text import complete_or_refuse, read_table
-from kfmaps.io.transfer import find_counterparts
+from kfmaps.io.transfer import Counterparts, find_counterparts
 
 CORRECTIONS = "corrections.csv"
 """What somebody has corrected by hand: the one file of a study that :func:`write_study` leaves alone."""
@@ -151,9 +151,7 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks]) -> list[Path]
     return [folder / "pca_scores.csv", folder / "procrustes.csv"]
 
 
-def local_differences(
-    place: PointMap, source: Mesh, target: Mesh, points: np.ndarray, known: np.ndarray, common: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def local_differences(ways: Counterparts, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return how the target differs from the source around each landmark, in area and in angles: (l,) and (l,).
 
     The surroundings of a landmark are the part of the source that is nearer to it than to any other. The area is that
@@ -161,18 +159,18 @@ def local_differences(
     median over the area there of (σ₁/σ₂ + σ₂/σ₁) / 2 of the map of each triangle, σ its stretches: 1 where angles are
     kept (Hormann and Greiner, MIPS: an efficient global parametrization method, 2000).
 
-    ``place``: the point of the source for each target vertex; ``points (l, 3)``: landmarks of the source; ``known
-    (n_t,)`` and ``common (n_s,)``: which vertices of target and source have a counterpart.
+    ``points (l, 3)``: landmarks of the source.
     """
-    faces = target.faces[known[target.faces].all(axis=1)]
-    images, tree = point_positions(place, source)[faces], KDTree(points)
+    source, target = ways.meshes
+    faces = target.faces[ways.target[target.faces].all(axis=1)]
+    images, tree = point_positions(ways.place, source)[faces], KDTree(points)
     own, other = _edge_products(target.vertices[faces]), _edge_products(images)
     size, other_size = (np.sqrt(np.maximum(a * c - b * b, 0.0)) for a, b, c in (own, other))
     with np.errstate(divide="ignore", invalid="ignore"):
         mixed = own[0] * other[2] - 2 * own[1] * other[1] + own[2] * other[0]
         stretch = np.nan_to_num(mixed / (2 * size * other_size), nan=np.inf)
     at = tree.query(images.mean(axis=1))[1]
-    sources = source.faces[common[source.faces].all(axis=1)]
+    sources = source.faces[ways.source[source.faces].all(axis=1)]
     whole = face_areas(Mesh(source.vertices, sources))
     before = np.bincount(tree.query(source.vertices[sources].mean(axis=1))[1], whole, len(points))
     after = np.bincount(at, size, len(points))
@@ -201,9 +199,7 @@ def write_local_differences(
         file = map_path(folder, pair.key)
         mesh = read_shape_mesh(one.scan)
         ways = find_counterparts(load_map(file), template.mesh, mesh, str(file))
-        found = local_differences(
-            ways.place, template.mesh, mesh, template.points.points[rows], ways.target, ways.source
-        )
+        found = local_differences(ways, template.points.points[rows])
         cells = [[table_cell(x, ".4g") for x in values] for values in found]
         table += [[one.specimen, names[row], *values] for row, *values in zip(rows, *cells, strict=True)]
     write_rows(path, table)

@@ -16,7 +16,7 @@ from kfmaps.batch.results import Result
 from kfmaps.batch.work import map_path
 from kfmaps.collection.procrustes import generalized_procrustes, geometric_median, is_mirror_image
 from kfmaps.collection.semilandmarks import slide_semilandmarks
-from kfmaps.fmap.precise import PointMap, vertex_point_map
+from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map
 from kfmaps.io.landmark_files import (
@@ -254,7 +254,7 @@ def _carry(one: Template, specimen: str, mesh: Mesh, folder: Path, chance: float
     ways = find_counterparts(known, one.mesh, mesh, str(file))
     trust = getattr(known, "local_confidence", None)  # a list of vertices has none
     local = np.ones(len(mesh.vertices)) if trust is None else np.nan_to_num(trust)
-    carried = transfer_points(one.points, one.mesh, mesh, ways.place, local, known=ways.target, common=ways.source)
+    carried = transfer_points(one.points, ways, local)
     return known, replace(carried, confidence=carried.confidence * chance)
 
 
@@ -334,8 +334,7 @@ def _rival_distance(known: Match, template: Template, mesh: Mesh, carried: Named
     distances = np.full(len(carried.names), np.nan)
     for other in known.alternatives:
         if (other >= 0).all():
-            place = vertex_point_map(other, template.mesh)
-            points = transfer_points(template.points, template.mesh, mesh, place).points
+            points = transfer_points(template.points, find_counterparts(Match(other), template.mesh, mesh)).points
             distances = np.fmin(distances, np.linalg.norm(points - carried.points, axis=1))
     return distances
 

@@ -23,6 +23,7 @@ from kfmaps.io.landmark_files import (
     read_landmark_sets,
     write_landmark_sets,
 )
+from kfmaps.io.transfer import Counterparts
 
 MAX_DISTANCE = 0.05
 """Median distance of landmarks from the surface, in √area, beyond which they are refused."""
@@ -184,26 +185,17 @@ def read_given_landmarks(
 
 
 def transfer_points(
-    given: NamedPoints,
-    source: Mesh,
-    target: Mesh,
-    place: PointMap,
-    confidence: np.ndarray | None = None,
-    *,
-    back: bool = False,
-    known: np.ndarray | None = None,
-    common: np.ndarray | None = None,
+    given: NamedPoints, ways: Counterparts, confidence: np.ndarray | None = None, *, back: bool = False
 ) -> NamedPoints:
     """Carry points of the source to the target, or (``back``) of the target to the source; missing ones stay missing.
 
-    ``place`` is a point of the source for each target vertex. Back is one look-up: between the corners of the face that
-    a point lies in. Forth the source's points are sought among the images of the target's faces, flat between those
-    of their corners: the closest place on that surface, in the source's space. The confidence is that of the target's
-    vertices around the point.
+    Back is one look-up: between the corners of the face that a point lies in. Forth the source's points are sought
+    among the images of the target's faces, flat between those of their corners: the closest place on that surface, in
+    the source's space. The confidence is that of the target's vertices around the point, ``confidence (n_t,)``.
 
-    Of a map of parts ``known (n_t,)`` and ``common (n_s,)`` say which vertices have a counterpart. A point has none
-    where most of its face has none, and becomes a missing one.
+    A point has no counterpart where most of its face has none, and becomes a missing one.
     """
+    (source, target), place, known = ways.meshes, ways.place, ways.target
     images, lost = point_positions(place, source), given.vertices < 0
     if back:
         corners = target.faces[given.place.faces]
@@ -212,22 +204,19 @@ def transfer_points(
         )
         there, mesh, on_target = PointMap(found.faces, found.weights), source, given.place
         # Where a face is torn apart the mean of its corners lies on no surface: then the nearest corner's image.
-        torn = found.distances > 0.02 * np.sqrt(surface_area(source))
-        if known is not None:
-            torn |= ~known[corners].all(axis=1)
-        torn = np.flatnonzero(torn)
+        far = found.distances > 0.02 * np.sqrt(surface_area(source))
+        torn = np.flatnonzero(far | ~known[corners].all(axis=1))
         there.faces[torn], there.weights[torn] = place.faces[given.vertices[torn]], place.weights[given.vertices[torn]]
     else:
-        rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
+        rows = np.flatnonzero(known[target.faces].all(axis=1))
         found = closest_points(np.where(lost[:, None], images[0], given.points), images, target.faces[rows])
         there = on_target = PointMap(rows[found.faces], found.weights)
         mesh = target
     trust = np.full(len(given.names), np.nan)
     if confidence is not None:
         trust = np.einsum("qi,qi->q", on_target.weights, confidence[target.faces[on_target.faces]])
-    own, on = (known, target) if back else (common, source)
-    if own is not None:
-        lost = lost | (np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5)
+    own, on = (known, target) if back else (ways.source, source)
+    lost = lost | (np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5)
     carried = NamedPoints(given.names, there, point_positions(there, mesh), nearest_vertices(there, mesh), trust)
     return carried.without(lost)
 

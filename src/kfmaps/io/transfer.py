@@ -140,11 +140,12 @@ def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: ArrayLike | None) -> 
     return values
 
 
-def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: ArrayLike | None = None) -> np.ndarray:
+def transfer_back(values_t: np.ndarray, ways: Counterparts, lost: ArrayLike | None = None) -> np.ndarray:
     """Carry values from the vertices of the target to those of the source, (n_t, ...) to (n_s, ...).
 
     Each source vertex takes those of its own place on the target. ``lost`` is as for :func:`transfer`.
     """
+    target = ways.meshes[1]
     if values_t.ndim == 0 or len(values_t) != len(target.vertices):
         got = f"{len(values_t)}" if values_t.ndim else "a single value"
         raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")

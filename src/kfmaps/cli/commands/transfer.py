@@ -11,7 +11,6 @@ import typer
 from kfmaps._arrays import refuse
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
-from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_values, write_values
 from kfmaps.io.landmark_files import landmark_format, mesh_space
 from kfmaps.io.mapfile import map_mesh, mesh_path
@@ -74,8 +73,7 @@ def _carried(
     read = read_values(values)
     gone = int(lost) if lost is not None and read.array.dtype.kind in "iu" and lost == int(lost) else lost
     if back:
-        _, mesh, ways = _both(found, map, given)
-        return Values(transfer_back(read.array, ways, mesh, gone), read.columns)
+        return Values(transfer_back(read.array, _counterparts(found, map, given), gone), read.columns)
     if products is not None:
         source, target = (map_mesh(path, found, side, map) for side, path in zip(_SIDES, given, strict=True))
         return Values(transfer_by_functions(read.array, found, source, target, products), read.columns)
@@ -87,25 +85,23 @@ def _carried(
     return Values(transfer_values(read.array, found, faces, gone), read.columns)
 
 
-def _both(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
+def _counterparts(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> Counterparts:
     """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
     source, target = (map_mesh(path, found, side, map) for side, path in zip(_SIDES, given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
             raise refuse(side, "a surface with faces", "a point cloud", "leave --points and --back out")
-    return source, target, find_counterparts(found, source, target, str(map))
+    return find_counterparts(found, source, target, str(map))
 
 
 def _points(
     found: Match, map: Path, values: Path, output: Path, back: bool, given: tuple[Path | None, Path | None], force: bool
 ) -> None:
-    source, target, ways = _both(found, map, given)
+    ways = _counterparts(found, map, given)
     trust = getattr(found, "local_confidence", None)
     confidence = None if trust is None else np.asarray(trust)
     paths = [mesh_path(path, found, side, map) for side, path in zip(_SIDES, given, strict=True)]
     here, there = paths[::-1] if back else paths
-    mesh, space = target if back else source, mesh_space(here)
+    mesh, space = ways.meshes[1 if back else 0], mesh_space(here)
     named = read_named_points(values, mesh, specimen=here.stem, space=space)
-    known = {"known": ways.target, "common": ways.source}
-    carried = transfer_points(named, source, target, ways.place, confidence, back=back, **known)
-    write_named_points(output, carried, force, mesh_space(there) or space)
+    write_named_points(output, transfer_points(named, ways, confidence, back=back), force, mesh_space(there) or space)
