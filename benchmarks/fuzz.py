@@ -45,7 +45,7 @@ from kfmaps.io.bake import encode_png
 from kfmaps.io.named_points import read_named_points
 from kfmaps.io.record import MeshFile
 from kfmaps.matching.result import Match
-from kfmaps.viz.picker import Picker, PickerServer
+from kfmaps.viz.picker import PickerServer
 from kfmaps.viz.server import _LOOPBACK
 
 MOST_MEMORY = 3 << 30
@@ -189,7 +189,7 @@ def fuzz_server(seconds: float, seed: int) -> int:
     ]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        picker = Picker(
+        serving = PickerServer(
             mesh,
             mesh,
             ("a", "b"),
@@ -197,7 +197,6 @@ def fuzz_server(seconds: float, seed: int) -> int:
             matcher=lambda _pairs, _progress: same,
             map_output=folder / "m.npz",
         )
-        serving = PickerServer(picker)
         thread = threading.Thread(target=serving.server.serve_forever)
         thread.start()
         where, token = f"{_LOOPBACK}:{serving.server.port}", serving.server.token

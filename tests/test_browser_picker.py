@@ -17,7 +17,7 @@ from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_landmark_names, read_landmarks
 from kfmaps.viz.document import forwarding_page
-from kfmaps.viz.picker import Picker, PickerServer
+from kfmaps.viz.picker import PickerServer
 
 pytest_plugins = ["chromium"]
 pytestmark = needs_browser
@@ -47,7 +47,7 @@ def picker(
     browser: Browser, pair: ExamplePair, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Browser]:
     """The page, opened as the command does: from a file that leads to the server's address."""
-    setting = Picker(
+    serving = PickerServer(
         pair.source,
         pair.target,
         (NASTY, "b"),
@@ -55,7 +55,6 @@ def picker(
         matcher=a_matcher,
         map_output=tmp_path / "m.npz",
     )
-    serving = PickerServer(setting)
     thread = threading.Thread(target=serving.server.serve_forever)
     thread.start()
     opened = tmp_path_factory.mktemp("opened") / "page.html"

@@ -27,7 +27,7 @@ from kfmaps.datasets import sphere
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
 from kfmaps.matching.result import Match
-from kfmaps.viz.picker import Picker, PickerServer, Runs, check_pairs
+from kfmaps.viz.picker import PickerServer, Runs, check_pairs
 from kfmaps.viz.server import _LOOPBACK, LocalServer, page_reply
 from serving import Client
 
@@ -44,7 +44,7 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
 
     def start(**changes: Any) -> Client:
         settings = {"names": ("a", "b"), "output": tmp_path / "pairs.txt"} | changes
-        serving = PickerServer(Picker(SOURCE, TARGET, **settings))
+        serving = PickerServer(SOURCE, TARGET, **settings)
         thread = threading.Thread(target=serving.server.serve_forever)
         thread.start()
         running.append((serving, thread))
@@ -344,7 +344,7 @@ def test_defect_in_an_answer_is_told_and_the_server_goes_on(capsys: pytest.Captu
 def test_port_that_is_taken_is_refused_in_words(serve: Serve, tmp_path: Path) -> None:
     port = serve().port
     with pytest.raises(InvalidInput, match=f"^port: expected a free port of this machine, got {port}"):
-        PickerServer(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)
+        PickerServer(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt", port=port)
 
 
 @pytest.mark.usefixtures("interruptible")

@@ -89,9 +89,7 @@ def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:
     """
     faces = mesh.faces[keep[mesh.faces].all(axis=1)]
     while True:
-        order, start, sharing = half_edges_by_edge(faces, len(keep))
-        shared = start[sharing == 2]
-        component = component_labels(len(faces), order[shared] // 3, order[shared + 1] // 3)[1]
+        component = component_labels(len(faces), *(half_edges_by_edge(faces, len(keep))[1] // 3))[1]
         faces = faces[component == np.bincount(component, face_areas(Mesh(mesh.vertices, faces))).argmax()]
         touching = np.bincount(boundary_edges(faces, len(keep)).ravel(), minlength=len(keep)) > 2
         if not touching.any():

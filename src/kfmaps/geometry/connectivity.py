@@ -48,16 +48,18 @@ def half_edges(faces: np.ndarray) -> np.ndarray:
 
 
 def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the half-edges of ``faces (f, 3)`` grouped by the edge that they run along.
+    """Return the half-edges of ``faces (f, 3)`` that are alone on their edge, and those that are two.
 
-    Half-edge 3 face + i goes from corner i to corner i + 1. ``n``: number of vertices. Returns ``order (3 f,)``: their
-    numbers; ``start (e,)``: where each edge begins in it; ``sharing (e,)``: how many half-edges it has.
+    Half-edge 3 face + i goes from corner i to corner i + 1. ``n``: number of vertices. Returns ``rim (b,)``: numbers of
+    the first; ``pairs (2, p)``: of the others; ``sharing (e,)``: how many half-edges each edge has.
     """
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     edge = np.minimum(tail, head) * n + np.maximum(tail, head)
     order = np.argsort(edge, kind="stable")
     start = np.flatnonzero(np.diff(edge[order], prepend=-1))
-    return order, start, np.diff(start, append=len(order))
+    sharing = np.diff(start, append=len(order))
+    two = start[sharing == 2]
+    return order[start[sharing == 1]], np.stack([order[two], order[two + 1]]), sharing
 
 
 def mesh_edges(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:

@@ -63,9 +63,7 @@ def turn_faces(faces: np.ndarray, which: np.ndarray) -> np.ndarray:
 def _rim_and_agreement(faces: np.ndarray, n: int) -> tuple[np.ndarray, bool]:
     """Boundary edges as their faces run along them, (b, 2), and whether all neighbours are oriented alike."""
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    order, start, sharing = half_edges_by_edge(faces, n)
-    rim = order[start[sharing == 1]]
-    one, two = order[start[sharing == 2]], order[start[sharing == 2] + 1]
+    rim, (one, two), _ = half_edges_by_edge(faces, n)
     return np.stack([tail[rim], head[rim]], axis=1), bool((tail[one] != tail[two]).all())
 
 

@@ -65,9 +65,7 @@ def topology(mesh: Mesh) -> Topology:
     tail = faces.ravel()
     following = np.arange(3 * f).reshape(f, 3)[:, [1, 2, 0]].ravel()
     head = tail[following]
-    order, start, sharing = half_edges_by_edge(faces, n)
-    rim = order[start[sharing == 1]]
-    one, two = order[start[sharing == 2]], order[start[sharing == 2] + 1]
+    rim, (one, two), sharing = half_edges_by_edge(faces, n)
     against = tail[one] == tail[two]
 
     used = np.flatnonzero(np.bincount(tail, minlength=n))
@@ -88,7 +86,7 @@ def topology(mesh: Mesh) -> Topology:
     loops = len(np.unique(loop[fan[rim]]))
 
     orientable = _is_orientable(f, one // 3, two // 3, against)
-    characteristic = len(used) - len(start) + f
+    characteristic = len(used) - len(sharing) + f
     nonmanifold_edges = int((sharing > 2).sum())
     manifold = f > 0 and nonmanifold_edges == 0 and nonmanifold_vertices == 0
     return Topology(

@@ -154,9 +154,12 @@ def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     return found.astype(np.int64)
 
 
-@dataclass(frozen=True, eq=False)
-class Picker:
-    """What the picker works on."""
+@dataclass(eq=False)
+class PickerServer:
+    """The server of the picker's page: seven requests, two files to write, none to read.
+
+    ``server`` is not answering yet: call its ``serve_forever``. ``runs`` are the matches started from the page.
+    """
 
     source: Mesh
     target: Mesh
@@ -168,9 +171,26 @@ class Picker:
     matcher: _Matcher | None = None  # computes a map from landmarks; without it the page cannot match
     map_output: Path | None = None  # where the page may write the map of a run; without it none is saved
     up: str | None = None  # the shapes' vertical axis; ``None``: a good side is found
+    port: int = 0
 
-    def page(self) -> str:
-        """Return the page, which speaks to the server it came from."""
+    def __post_init__(self) -> None:
+        self.runs = Runs(self._work)
+        self._written: set[Path] = set()
+        self._maps: list[Match] = []
+        page = self._page()
+        routes = {
+            ("GET", ""): lambda _: page_reply(page),
+            ("GET", "progress"): self._progress,
+            ("GET", "map"): self._last_map,
+            ("POST", "match"): self._match,
+            ("POST", "cancel"): self._cancel,
+            ("POST", "save"): self._save,
+            ("POST", "save-map"): self._save_map,
+        }
+        self.server = LocalServer(routes, self.port)
+
+    def _page(self) -> str:
+        """The page, which speaks to the server it came from."""
         data = {
             "kind": "picker",
             "up": check_up(self.up) or "auto",
@@ -186,30 +206,6 @@ class Picker:
         title = f"Landmarks: {self.names[0]} → {self.names[1]}"
         return document("picker.html.j2", title=title, data=data, connect=True)
 
-
-class PickerServer:
-    """The server of a picker's page: seven requests, two files to write, none to read.
-
-    ``server`` is not answering yet: call its ``serve_forever``. ``runs`` are the matches started from the page.
-    """
-
-    def __init__(self, picker: Picker, port: int = 0) -> None:
-        self.picker = picker
-        self.runs = Runs(self._work)
-        self._written: set[Path] = set()
-        self._maps: list[Match] = []
-        page = picker.page()
-        routes = {
-            ("GET", ""): lambda _: page_reply(page),
-            ("GET", "progress"): self._progress,
-            ("GET", "map"): self._last_map,
-            ("POST", "match"): self._match,
-            ("POST", "cancel"): self._cancel,
-            ("POST", "save"): self._save,
-            ("POST", "save-map"): self._save_map,
-        }
-        self.server = LocalServer(routes, port)
-
     def close(self) -> None:
         """Stop a running match and give the port back."""
         self.runs.cancel(wait=2.0)
@@ -217,9 +213,9 @@ class PickerServer:
 
     def _work(self, pairs: np.ndarray, progress: Progress) -> dict[str, object]:
         """Match with landmarks, and keep the map; what the page shows of it."""
-        source, target, matcher = self.picker.source, self.picker.target, self.picker.matcher
-        assert matcher is not None
-        found = matcher(pairs, progress)
+        source, target = self.source, self.target
+        assert self.matcher is not None
+        found = self.matcher(pairs, progress)
         points = check_map(found, len(source.vertices), len(target.vertices), lost=True)
         self._maps.append(found)
         label = plural(len(pairs), "landmark")
@@ -228,12 +224,11 @@ class PickerServer:
         return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict_record(told)}
 
     def _pairs(self, request: JsonObject) -> np.ndarray:
-        pairs = request.get("pairs")
-        return check_pairs(pairs, self.picker.source, self.picker.target)
+        return check_pairs(request.get("pairs"), self.source, self.target)
 
     def _write(self, path: Path, request: JsonObject, write: Callable[[bool], None], **told: object) -> Reply:
         # What this picker wrote itself it may replace; what was there before only when told to.
-        allowed = self.picker.force or path in self._written or request.get("overwrite") is True
+        allowed = self.force or path in self._written or request.get("overwrite") is True
         if path.exists() and not allowed:
             return json_reply({"exists": str(path)}, 409)
         write(allowed)
@@ -241,7 +236,7 @@ class PickerServer:
         return json_reply({"saved": str(path), **told})
 
     def _save(self, request: JsonObject) -> Reply:
-        pairs, path = self._pairs(request), self.picker.output
+        pairs, path = self._pairs(request), self.output
         names = request.get("names", ())
         if not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in names):
             wanted = f"texts of at most {_LONGEST_NAME} letters"
@@ -253,13 +248,13 @@ class PickerServer:
         return self._write(path, request, write, count=len(pairs))
 
     def _save_map(self, request: JsonObject) -> Reply:
-        path, run = self.picker.map_output, request.get("run")
+        path, run = self.map_output, request.get("run")
         if path is None or type(run) is not int or not 0 <= run < len(self._maps):
             raise refuse("map", "the number of a run that is done", repr(run), "match first")
         return self._write(path, request, lambda force: save_map(path, self._maps[run], force))
 
     def _match(self, request: JsonObject) -> Reply:
-        if self.picker.matcher is None:
+        if self.matcher is None:
             raise refuse("match", "a picker that can match", "one that cannot", "save and use kfmaps match")
         return json_reply(asdict(self.runs.start(self._pairs(request))))
 

@@ -49,7 +49,7 @@ from kfmaps.settings import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.landmark_review import ReviewServer
 from kfmaps.viz.page import check_up
-from kfmaps.viz.picker import InteractiveMatcher, Picker, PickerServer, check_pairs
+from kfmaps.viz.picker import InteractiveMatcher, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
 
 _Port = Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)]
@@ -116,8 +116,8 @@ def pick(
     pairs = check_pairs(known.tolist(), *shapes)
     names = (source.stem, target.stem)
     matcher = InteractiveMatcher(shapes, names, (source, target), settings.config(Config()))
-    picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
-    _serve(PickerServer(picker, port), {"output": [output, map_output]}, browser, json)
+    serving = PickerServer(*shapes, names, output, force, pairs, labels, matcher, map_output, up, port)
+    _serve(serving, {"output": [output, map_output]}, browser, json)
 
 
 @app.command("transfer")
