@@ -153,10 +153,7 @@ def prepare(
     if noisy:
         part = replace(part, mesh=Mesh(project_noise(part.mesh.vertices), part.mesh.faces))
     small = unit_area(part.mesh)
-    wanted = config.n_eigenfunctions
-    if len(small.vertices) <= wanted:
-        remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
-        raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
+    _check_size(small, name, config)
     _tell(part, name, noisy)
     if is_cloud and config.descriptors.shot:
         surface = surface_of_cloud(small.vertices)
@@ -170,7 +167,7 @@ def prepare(
     tolerance, local = EXACT if len(small.vertices) <= FEW else NEARLY, None
     with clock("eigenfunctions"):
         told = partial(clock.report, "eigenfunctions")
-        basis = laplace_basis(small, wanted, kind, threads=threads, progress=told, tolerance=tolerance)
+        basis = laplace_basis(small, config.n_eigenfunctions, kind, threads=threads, progress=told, tolerance=tolerance)
     if config.descriptors.shot and len(mesh.faces):
         with clock("SHOT"):
             local = _local_descriptors(small, basis, radius, threads, lambda d: clock.report("SHOT", min(d, 0.99)))
@@ -256,6 +253,14 @@ def _tell(part: CleanedMesh, name: str, noisy: bool) -> None:
         warnings.warn(f"{name}: for the match {', '.join(told)}; the numbering is kept", KfmapsWarning, stacklevel=3)
 
 
+def _check_size(mesh: Mesh, name: str, config: Config) -> None:
+    """Refuse a mesh that has too few vertices for as many eigenfunctions as ``config`` needs."""
+    if len(mesh.vertices) <= config.n_eigenfunctions:
+        wanted = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
+        remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
+        raise refuse(name, wanted, str(len(mesh.vertices)), remedy)
+
+
 def check_prepared(shape: Shape, config: Config) -> None:
     """Raise :class:`InvalidInput` when ``shape`` was prepared with other settings than ``config`` needs."""
     remedy = "prepare it with the configuration that it is matched with"
@@ -280,18 +285,20 @@ def prepare_both(
 ) -> list[Shape]:
     """Prepare both shapes, side by side where they are small: one small eigenproblem has no use for several cores.
 
-    What is a :class:`Shape` already is checked against ``config`` and handed on.
+    What is a :class:`Shape` already is checked against ``config`` and handed on. Both are checked before work begins.
     """
+    both = ((source, names[0]), (target, names[1]))
+    for part, name in both:
+        if isinstance(part, Mesh):
+            _check_size(part, name, config)
+        else:
+            check_prepared(part, config)
     workers = config.threads or available_cores()
     meshes = [part for part in (source, target) if isinstance(part, Mesh)]
     aside = len(meshes) == 2 and max(len(mesh.vertices) for mesh in meshes) < THREADED
     share = replace(config, threads=max(1, workers // 2)) if aside else config
 
     def ready(part: Mesh | Shape, name: str) -> Shape:
-        if isinstance(part, Mesh):
-            return prepare(part, share, name=name, progress=progress)
-        check_prepared(part, config)
-        return part
+        return prepare(part, share, name=name, progress=progress) if isinstance(part, Mesh) else part
 
-    both = ((source, names[0]), (target, names[1]))
     return parallel(lambda item: ready(*item), both, min(workers, 2) if aside else 1)

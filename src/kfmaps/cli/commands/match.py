@@ -80,7 +80,7 @@ def match(
 
     config = settings.config(Config())
     _check_device(config.device)
-    meshes = _read(source, config), _read(target, config)
+    meshes = read_shape_mesh(source), read_shape_mesh(target)
     pairs = None
     if landmarks:
         pairs = read_given_landmarks(landmarks, meshes, (source, target), one_based or None)[0]
@@ -115,16 +115,6 @@ def match(
         _show(found, output, truth)
     if not meets(found.verdict, require):
         raise typer.Exit(UNSURE)
-
-
-def _read(path: Path, config: Config) -> Mesh:
-    """A mesh with enough vertices for ``config``."""
-    mesh = read_shape_mesh(path)
-    if len(mesh.vertices) <= config.n_eigenfunctions:
-        wanted = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
-        remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
-        raise refuse(str(path), wanted, str(len(mesh.vertices)), remedy)
-    return mesh
 
 
 def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
