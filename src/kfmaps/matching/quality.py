@@ -134,7 +134,6 @@ def sample_for_scoring(
     shape: Shape,
     count: int = 1000,
     rng: int | np.random.Generator = 0,
-    threads: int | None = None,
     landmarks: np.ndarray | None = None,
 ) -> ShapeSamples:
     """Sample ``count`` points of ``shape`` and compute what :func:`map_quality` compares.
@@ -160,7 +159,7 @@ def sample_for_scoring(
     if len(shape.mesh.faces):
         operators = 50  # functions of the orientation operators that a probe keeps, also for fits
         low = Basis(shape.basis.eigenvalues, functions[:, :operators], shape.basis.mass)
-        orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES], threads)
+        orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES], threads=1)
     local = None if shape.shot is None else shape.shot[samples.vertices]
     heat = log_heat_signature(samples.basis)
     return ShapeSamples(

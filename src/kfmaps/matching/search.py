@@ -224,7 +224,7 @@ def _search_samples(
     if probes is None or len(pairs):
         sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
         seed = drawn_seed(given)
-        a, b = parallel(lambda s: sample_for_scoring(s[0], rng=seed, threads=1, landmarks=s[1]), sides, config.threads)
+        a, b = parallel(lambda s: sample_for_scoring(s[0], rng=seed, landmarks=s[1]), sides, config.threads)
         probes = a, b
     assert config.search is not None
     if config.search.match_extremities:
@@ -467,7 +467,7 @@ def alternative_maps(
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
     """Return what a search with ``rng`` needs to know of one shape, whatever it is matched with."""
-    made = sample_for_scoring(shape.cleaned[0], rng=drawn_seed(seed_of(rng)), threads=1)
+    made = sample_for_scoring(shape.cleaned[0], rng=drawn_seed(seed_of(rng)))
     return with_self_maps(made, subsample(made, FEW))
 
 

@@ -117,9 +117,9 @@ def position_normals(mesh: Mesh) -> np.ndarray:
     return np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
 
 
-def _project_positions(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:
+def _project_positions(positions: np.ndarray, samples: SampledBasis, basis: Basis) -> np.ndarray:
     """``positions (q, 3)`` at samples as smooth functions on all vertices, (n, 3), by damped least squares."""
-    phi = to_numpy(samples.functions)[:, :k]
+    phi = to_numpy(samples.functions)[:, :100]
     weighted = (to_numpy(samples.mass)[:, None] * phi).T
     found = np.linalg.solve(weighted @ phi + 1e-3 * np.eye(phi.shape[1]), weighted @ positions)
     return to_numpy(basis.functions)[:, : phi.shape[1]] @ found

@@ -42,14 +42,14 @@ def beam_search(
     distances: np.ndarray,
     similarity: np.ndarray,
     n_landmarks: int = 0,
-    width: int = 100,
 ) -> list[Assignment]:
     """Return at most 12 distinct placements of a few samples, best first; only these samples have trust.
 
     ``boundary_distance (q,)``: of the part's samples, in the unit of the whole; ``distances (m, m)``: between the
     whole's samples, of which the first 400 are places; ``similarity (q, m)``: products of descriptors; rows of the
-    first ``n_landmarks`` samples have one entry above all others; ``width``: placements that are kept at each step.
+    first ``n_landmarks`` samples have one entry above all others.
     """
+    width = 100  # placements that are kept at each step
     anchors = _select_anchors(bounds, boundary_distance, _ANCHORS, n_landmarks)
     m = min(400, similarity.shape[1])
     distances = distances[:m, :m]
