@@ -4,8 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
+from scipy.spatial.transform import Rotation
 
-from kfmaps import datasets
+from kfmaps import Config, Mesh, datasets, match
+from kfmaps.datasets.skeleton import Bend, Body, Limb
+from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching import search
 from kfmaps.matching import self_maps as within
@@ -61,8 +65,9 @@ def test_those_that_change_distances_early_are_none(monkeypatch, on):
     for one, other in zip(some, find_self_maps(on.source, 100), strict=True):
         np.testing.assert_array_equal(one, other)
     same, lost = np.eye(10), np.diag([1.0] + [0.0] * 9)
-    changed = within._changed(np.stack([same, lost]), on.source)
-    assert changed[0] == 0.0
+    changed, moved_by = within._changed(np.stack([same, lost]), on.source)
+    assert changed[0] == moved_by[0] == 0.0
+    assert moved_by[1] > _MIN_DISPLACEMENT
     # All that are taken to one point lose all of their distance.
     assert changed[1] == pytest.approx(on.source.distances.mean())
 
@@ -121,3 +126,56 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(pair, monkeypatch):
     assert error(chosen.ranked[0]) < 0.05
     monkeypatch.setattr(search, "compose_with_symmetries", lambda *_: [])
     assert _choose_orientation(blind, unduly=True).orientation == "reversing"
+
+
+ARMS = 5
+
+
+def starfish_body():
+    trunk = Limb("trunk", None, ((0, 0, -0.05, 0.2), (0, 0, 0, 0.22), (0, 0, 0.05, 0.2)))
+    arms = []
+    for i, a in enumerate(2 * np.pi * np.arange(ARMS) / ARMS):
+        balls = ((r * np.cos(a), r * np.sin(a), 0, thick) for r, thick in ((0.1, 0.14), (0.4, 0.11), (0.8, 0.05)))
+        arms.append(Limb(f"arm {i}", "trunk", tuple(balls)))
+    return Body((trunk, *arms))
+
+
+def starfish(seed):
+    rng = np.random.default_rng(seed)
+
+    def pose():
+        return {f"arm {i}": Bend(tuple(map(tuple, rng.normal(0, 12, (2, 3))))) for i in range(ARMS)}
+
+    return datasets.posed_pair("starfish", starfish_body(), pose(), pose(), (1500, 1500), rng)
+
+
+def test_a_starfish_is_turned_onto_itself():
+    vertices, faces = closed_mesh(starfish_body(), starfish_body().box(), 1500, np.random.default_rng(0))
+    of = subsample(sample_for_scoring(prepare(Mesh(vertices, faces), SMALL)), 400)
+    found = [C for C in find_self_maps(of, 60) if map_quality(C, of, of).orientation > 0.9]
+    assert found
+    around = [Rotation.from_rotvec([0, 0, 2 * np.pi * i / ARMS]).as_matrix() for i in range(1, ARMS)]
+    for C in found:
+        basis = of.samples.basis.functions[:, : len(C)]
+        images = of.positions[KDTree(basis @ C.T).query(basis)[1]]
+        off = [np.linalg.norm(images - of.positions @ R, axis=1).mean() for R in around]
+        assert min(off) < 0.06 < 0.3 < max(off)
+
+
+def test_a_map_of_a_starfish_is_not_sure():
+    pair = starfish(0)
+    found = match(pair.source, pair.target, Config())
+    assert found.verdict == "ambiguous"
+
+
+def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
+    best = score_maps([Start("best", np.eye(20))], on)[0]
+    best = replace(best, deformation_energy=0.01, strain=-0.1)
+    usual = np.exp(-3.6 - 0.233 * best.quality.score)
+    bends_less, bends_more = (replace(best, deformation_energy=usual * x, strain=0.1) for x in (0.99, 1.01))
+    assert search._margin(best, bends_less) == 0.0
+    assert search._margin(best, bends_more) == pytest.approx(best.score - bends_more.score) != 0.0
+    worse = replace(bends_less, quality=replace(best.quality, coverage=best.quality.coverage - 0.31))
+    assert search._margin(best, worse) == pytest.approx(best.score - worse.score)
+    unknown = replace(best, deformation_energy=None, strain=None)
+    assert search._margin(best, unknown) == best.score - unknown.score

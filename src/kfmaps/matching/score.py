@@ -187,7 +187,8 @@ class Scoring:
     non_isometric_score: float = -8.0
     """:attr:`Quality.score` below which the high functions of two shapes do not correspond."""
     clear_margin: float = 0.3
-    """Margin from which an alternative without descriptors or a mirror image comes first."""
+    """Margin from which an alternative without descriptors or a mirror image comes first; :attr:`Quality.score` by
+    which a map after a symmetry of the shape is behind at most: octopuses and stars have 0.2."""
     mirror_margin: float = 5.0
     """Margin from which a map to the mirror image comes first unasked; bones have 10, other maps none."""
     mirror_gain: float = 1.0

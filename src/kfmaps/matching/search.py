@@ -376,11 +376,10 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
     config, samples = state.config, state.samples.whole
     assert config.search is not None
-    near = [(c, margin) for c, margin in state.doubts if margin < SCORE.close_margin]
+    near = [(c, margin) for c, margin in state.doubts if margin < SCORE.shot_margin]
     # Distances from extremities choose between repaired maps; the calibration does not know them.
     rivals = [c for c in rest if c.extremity_error is not None] or rest[:1]
-    known = [replace(c, extremity_error=None).score for c in (best, *rivals)]
-    margins = [*(margin for _, margin in near), *(known[0] - score for score in known[1:])]
+    margins = [*(margin for _, margin in near), *(_margin(best, rival) for rival in rivals)]
     if not _are_surfaces(samples) and (~state.wrong).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
     others = [*(c for c, _ in near), *rest][: config.search.n_alternatives]
@@ -411,6 +410,18 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
         registered_vertices=best.registered_vertices,
         swapped=best.swapped,
     )
+
+
+def _margin(best: Candidate, rival: Candidate) -> float:
+    """Return by how much ``best`` precedes a ``rival``, as the calibration knows it.
+
+    A rival that keeps distances and descriptors as well and bends the shape no more than right maps do is the map after
+    a symmetry of the shape: which of the two bends it less only the poses decide, so that does not count.
+    """
+    ahead = best.quality.score - rival.quality.score
+    if ahead < SCORE.clear_margin and _excess(rival) < 0.0:
+        return ahead
+    return replace(best, extremity_error=None).score - replace(rival, extremity_error=None).score
 
 
 def ignore_landmarks(found: Candidate, samples: SamplePair, threads: int | None = None) -> Candidate:
@@ -505,7 +516,10 @@ def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | N
 
 def deforms_unduly(found: Candidate) -> bool:
     """Return whether a map bends the shapes much more than right maps do: its score does not see what is wrong."""
-    return (
-        found.deformation_energy is not None
-        and excess_deformation(found.quality.score, found.deformation_energy) > SCORE.excess_deformation
-    )
+    return _excess(found) > SCORE.excess_deformation
+
+
+def _excess(found: Candidate) -> float:
+    """Return the excess of the deformation energy of a map over that of right maps, 0 where it is not known."""
+    energy = found.deformation_energy
+    return 0.0 if energy is None else excess_deformation(found.quality.score, energy)
