@@ -355,6 +355,8 @@ MUTANTS = tuple(
             "fits *= 1.0",
             "test_automatic -k verdict",
         ),
+        ("maps[:, i:, i:] = turns", "maps[:, i:, i:] = np.eye(2)", "test_symmetries -k onto_itself"),
+        ("ahead < SCORE.clear_margin and", "ahead < 9.0 and", "test_symmetries -k quality_alone"),
         ("if judged[i] > _MAX_DISTORTION or len(kept) == 2:", "if len(kept) == 2:", "test_extremities -k symmetry"),
         ("if off[0] > _MIN_DISPLACEMENT and all(", "if all(", "test_symmetries -k mirror"),
         (
@@ -670,8 +672,8 @@ MUTANTS = tuple(
             "test_registration_evidence -k over_usual",
         ),
         (
-            "known = [replace(c, extremity_error=None).score",
-            "known = [c.score",
+            "return replace(best, extremity_error=None).score - replace(rival, extremity_error=None).score",
+            "return best.score - rival.score",
             "test_alternating_registration -k surer",
         ),
         (
@@ -842,7 +844,7 @@ MUTANTS = tuple(
             "of.turns is not None",
             "test_symmetries -k knows_them",
         ),
-        ("np.argsort(_changed(begun, of), kind", "np.argsort(-_changed(begun, of), kind", "test_symmetries -k early"),
+        ("np.argsort(_changed(begun, of)[0], kind", "np.argsort(-_changed(begun, of)[0], kind", "test_symmetries -k early"),
         ("few, weights[:_QUICK])", "few, weights)", "test_early_exit -k near_symmetries"),
         (
             "rest[np.isinf(rest)] = over[np.isinf(rest)]",
