@@ -844,7 +844,11 @@ MUTANTS = tuple(
             "of.turns is not None",
             "test_symmetries -k knows_them",
         ),
-        ("np.argsort(_changed(begun, of)[0], kind", "np.argsort(-_changed(begun, of)[0], kind", "test_symmetries -k early"),
+        (
+            "np.argsort(_changed(begun, of)[0], kind",
+            "np.argsort(-_changed(begun, of)[0], kind",
+            "test_symmetries -k early",
+        ),
         ("few, weights[:_QUICK])", "few, weights)", "test_early_exit -k near_symmetries"),
         (
             "rest[np.isinf(rest)] = over[np.isinf(rest)]",
