@@ -90,14 +90,19 @@ def test_an_exchange_that_comes_near_casts_doubt(made, exchanged, monkeypatch):
     """On the verdict, and on the local confidence of the limbs alone."""
     plain = search_map(made.source, made.target, SMALL)
     assert plain.doubts == ()
-    monkeypatch.setattr(search, "compare_exchanged", lambda best, *_: [best, replace(exchanged, **near(best))])
 
-    def near(best):
-        return {"quality": replace(best.quality, descriptors=best.quality.descriptors + 0.01)} | {
-            name: getattr(best, name) for name in ("deformation_energy", "strain", "shot_error")
-        }
+    def searched(margin):
+        def near(best):
+            worse = replace(best.quality, descriptors=best.quality.descriptors + margin / SCORE.w_descriptors)
+            same = {name: getattr(best, name) for name in ("deformation_energy", "strain", "shot_error")}
+            return [best, replace(exchanged, quality=worse, **same)]
 
-    found = search_map(made.source, made.target, SMALL)
+        monkeypatch.setattr(search, "compare_exchanged", lambda best, *_: near(best))
+        return search_map(made.source, made.target, SMALL)
+
+    assert searched(2.6).doubts == ()
+    assert searched(1.7).doubts == pytest.approx((1.7,))
+    found = searched(0.12)
     assert found.doubts == pytest.approx((0.12,))
     assert (plain.verdict, found.verdict) == ("sure", "ambiguous")
     assert found.scores[0] - found.scores[1] == pytest.approx(0.12)
