@@ -200,7 +200,8 @@ class Scoring:
     max_behind: float = 3.0
     """Margin behind which a candidate is not registered."""
     shot_margin: float = 2.5
-    """Margin of the first two candidates below which their SHOT errors are compared."""
+    """Margin of the first two candidates below which their SHOT errors are compared, and up to which a map with two
+    limbs exchanged or to the mirror image casts a doubt."""
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
     repairable_margin: float = 6.0

@@ -79,6 +79,7 @@ def find_self_maps(of: ShapeSamples, functions: int, threads: int | None = None)
     if pairs:
         begun = np.concatenate([coarse(maps) for maps in pairs])
         changed, moved = _changed(begun, of)
+        # Most come back to the identity, which needs no more refinement.
         likely = np.flatnonzero((changed < _MAX_CHANGE) & (moved > _MIN_DISPLACEMENT))
         kept += _least_distorted(begun[likely], of, kept, stop, threads)
     return [C for C, _ in kept]
