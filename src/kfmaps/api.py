@@ -185,12 +185,7 @@ def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | Poi
         points = PointMap(points.faces[rows], points.weights[rows]) if isinstance(points, PointMap) else points[rows]
     if isinstance(points, PointMap) or isinstance(goal, PointMap):
         return evaluate.precise_errors(mesh, points, goal)
-    known = points >= 0
-    if known.all() or known.shape != goal.shape:
-        return evaluate.geodesic_errors(mesh, points, goal)
-    errors = np.full(len(points), np.nan)
-    errors[known] = evaluate.geodesic_errors(mesh, points[known], goal[known])
-    return errors
+    return evaluate.geodesic_errors(mesh, points, goal)
 
 
 def zoomout(
@@ -297,9 +292,9 @@ def render(
         options = {"target_view": seen[1], **options, "view": seen[0]}
     figure = match_figure(*shapes, drawn, **options)
     if output is not None:
-        kind = picture_format(output)
+        picture_format(output)
         with atomic_output(output, force) as temporary:
-            save_figure(figure, temporary, kind)
+            save_figure(figure, temporary)
     return figure
 
 

@@ -51,7 +51,7 @@ def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray) -> np
     ----------
     source : Mesh
     predicted, true : (q,) int
-        Vertices of the source.
+        Vertices of the source. The error is NaN where none is predicted (−1).
 
     Raises
     ------
@@ -63,10 +63,10 @@ def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray) -> np
     if predicted.shape != true.shape:
         got = f"{predicted.shape} and {true.shape}"
         raise refuse("predicted and true vertices", "lists of equal length", got, "evaluate the same points")
-    n = len(source.vertices)
-    predicted = check_point_map(predicted, n, len(predicted))
-    true = check_point_map(true, n, len(true))
-    return geodesic_distance_pairs(source, true, predicted) / np.sqrt(surface_area(source))
+    errors, known = np.full(len(predicted), np.nan), predicted != -1
+    ends = [check_point_map(points[known], len(source.vertices), int(known.sum())) for points in (true, predicted)]
+    errors[known] = geodesic_distance_pairs(source, *ends) / np.sqrt(surface_area(source))
+    return errors
 
 
 def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:

@@ -17,16 +17,12 @@ import torch
 from kfmaps._arrays import NotConverged
 from kfmaps.config import Formulation
 from kfmaps.fmap.energy import Energy
-from kfmaps.fmap.multiplication_operators import (
-    multiplication_operators,
-    truncate_features,
-    truncate_operators,
-    unpack_operators,
-)
+from kfmaps.fmap.multiplication_operators import unpack_operators
 from kfmaps.fmap.preconditioners import sylvester
 from kfmaps.fmap.solvers import CG, Operator, solve
 from kfmaps.fmap.terms import Term, descriptor_term, laplacian_term, operator_term
 from kfmaps.geometry.basis import Basis
+from kfmaps.matching.assemble import compressed_operators
 
 _KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]  # ``(n, d), (m, d) ↦ (n, m)``
 
@@ -81,24 +77,11 @@ def pair_energy(
     if "descriptors" in weights:
         terms["descriptors"] = descriptor_term(source, W_s, target, W_t)
     if "commutativity" in weights:
-        terms["commutativity"] = operator_term(*_operators((source, target), (W_s, W_t), operator_rtol))
+        # The rotations of truncated features have no derivative. The energy is the same in every rotation of all
+        # features, so only the operators that are dropped make the gradient inexact.
+        packed = compressed_operators((source, target), (W_s, W_t), operator_rtol)
+        terms["commutativity"] = operator_term(unpack_operators(packed[0]), unpack_operators(packed[1]))
     return Energy(terms, {name: weights[name] for name in terms})  # pyright: ignore[reportArgumentType]
-
-
-def _operators(
-    bases: tuple[Basis, Basis], W: tuple[torch.Tensor, torch.Tensor], rtol: float
-) -> tuple[torch.Tensor, torch.Tensor]:
-    """Return the multiplication operators ``(r, k, k)`` of both shapes, without the weakest unless ``rtol`` is 0.
-
-    The rotations of the features have no derivative. The energy is the same in every rotation of all features, so only
-    the operators that are dropped make the gradient inexact.
-    """
-    if rtol:
-        W = truncate_features(bases[0], W[0], bases[1], W[1], rtol / 2)
-    packed = multiplication_operators(bases[0], W[0]), multiplication_operators(bases[1], W[1])
-    if rtol:
-        packed = truncate_operators(*packed, rtol)
-    return unpack_operators(packed[0]), unpack_operators(packed[1])
 
 
 class _Implicit(torch.autograd.Function):

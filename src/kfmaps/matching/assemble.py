@@ -132,7 +132,7 @@ def assemble(
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0
     if weights.commutativity:
-        packed = compressed_operators(small, features, config.operator_rtol, config.threads)
+        packed = compressed_operators(small, (features.source, features.target), config.operator_rtol, config.threads)
         size = sum(inner(X, X) for X in packed)
         multiplications = (unpack_operators(packed[0]), unpack_operators(packed[1]))
     if weights.orientation:
@@ -149,15 +149,14 @@ def _term_name(factory: object) -> str:
 
 
 def compressed_operators(
-    bases: tuple[Basis, Basis], features: Features, rtol: float, threads: int | None = None
+    bases: tuple[Basis, Basis], features: tuple[Array, Array], rtol: float, threads: int | None = None
 ) -> tuple[Array, Array]:
     """Return packed multiplication operators of the features of both shapes, truncated to ``rtol`` unless it is 0."""
-    formed = features.source, features.target
     if rtol:
-        formed = truncate_features(bases[0], formed[0], bases[1], formed[1], CONDENSATION * rtol)
+        features = truncate_features(bases[0], features[0], bases[1], features[1], CONDENSATION * rtol)
     packed_s, packed_t = (
         multiplication_operators(b, F, threads=threads, single=_serves_in_single(rtol))
-        for b, F in zip(bases, formed, strict=True)
+        for b, F in zip(bases, features, strict=True)
     )
     return truncate_operators(packed_s, packed_t, rtol) if rtol else (packed_s, packed_t)
 

@@ -243,7 +243,7 @@ def fit_descriptor_set(
         formulation=replace(config.formulation, bidirectional=False),
     )
     features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
-    packed = compressed_operators(low, features, max(config.operator_rtol, 1e-3), threads=1)
+    packed = compressed_operators(low, (features.source, features.target), max(config.operator_rtol, 1e-3), threads=1)
     operators_of_features = [unpack_operators(p) for p in packed]
     turning: list[np.ndarray] = []
     known = [cube for cube in operators if cube is not None]

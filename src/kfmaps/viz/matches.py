@@ -118,9 +118,7 @@ def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray,
     rows = np.full((len(maps), len(maps[0])), np.nan)
     # All at once, so that one search from a true vertex serves every map.
     predicted = np.concatenate([truth_from_pairs(truth_s, truth_t, points) for points in maps])
-    known = predicted >= 0
-    errors = np.full(len(predicted), np.nan)
-    errors[known] = geodesic_errors(source, predicted[known], np.tile(truth_s, len(maps))[known])
+    errors = geodesic_errors(source, predicted, np.tile(truth_s, len(maps)))
     rows[:, truth_t] = errors.reshape(len(maps), -1)
     return rows
 

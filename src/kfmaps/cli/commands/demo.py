@@ -149,11 +149,9 @@ def _compare(
             stages(stage, 1.0)
             seconds = time.perf_counter() - start
             points, raw = result.target_to_source, result.fit.raw_target_to_source
-            known = points >= 0
-            errors = np.full(len(known), np.nan)
-            errors[known] = geodesic_errors(pair.source, points[known], pair.truth[known])
+            errors = geodesic_errors(pair.source, points, pair.truth)
             raw_error = None if raw is None else float(geodesic_errors(pair.source, raw, pair.truth).mean())
             row = {"method": method, "given": "no landmarks" if marks is None else given}
-            row |= {"error": float(errors[known].mean()), "raw_error": raw_error, "verdict": result.verdict}
+            row |= {"error": float(errors[points >= 0].mean()), "raw_error": raw_error, "verdict": result.verdict}
             methods.append(row | {"seconds": seconds, "points": points, "errors": errors})
     return pair, methods
