@@ -210,8 +210,8 @@ MUTANTS = tuple(
         ),
         ("points[columns]], 2 * _RADIUS)", "points[columns]], _RADIUS)", "test_confidence -k definition"),
         (
-            "predicted) / np.sqrt(surface_area(source))",
-            "predicted) / surface_area(source)",
+            "*ends) / np.sqrt(surface_area(source))",
+            "*ends) / surface_area(source)",
             "test_maps -k units",
         ),
         ("np.clip(auc_limit - errors, 0, None)", "np.clip(auc_limit - errors, -1, None)", "test_maps -k known"),

@@ -23,7 +23,7 @@ import threadpoolctl
 from distributed.scheduler import NoWorkerError
 
 from collecting import CONFIG, Deadly, done, plan_of, write_collection
-from kfmaps._arrays import InvalidInput, MissingDependency
+from kfmaps._arrays import InvalidInput
 from kfmaps.batch.jobs import WorkerPool, _local_workers, _running_workers
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import Plan, make_plan
@@ -298,14 +298,6 @@ def test_two_runs_at_once_do_not_meet() -> None:
 def test_no_scheduler() -> None:
     with pytest.raises(InvalidInput, match=r"tcp://127\.0\.0\.1:9"), _running_workers("tcp://127.0.0.1:9", timeout=0.3):
         pass
-
-
-def test_dask_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    for scheduler in (None, "tcp://127.0.0.1:9"):
-        with pytest.raises(MissingDependency, match=r"install 'dask"):
-            run_batch(plan, workers=scheduler)
 
 
 def test_one_run_at_a_time(tmp_path: Path) -> None:

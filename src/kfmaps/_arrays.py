@@ -69,6 +69,12 @@ def blocks(n: int, size: int) -> list[slice]:
     return [slice(a, min(a + size, n)) for a in range(0, n, size)]
 
 
+def index_ranges(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Return the numbers starts[i], ..., starts[i] + sizes[i] - 1 of every i, one range after another."""
+    first = np.cumsum(sizes) - sizes
+    return np.repeat(starts - first, sizes) + np.arange(int(sizes.sum()))
+
+
 def inner(x: Array, y: Array) -> float:
     """Return the sum of elementwise products, as a Python number."""
     return number(array_namespace(x, y).sum(x * y))

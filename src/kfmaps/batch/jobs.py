@@ -14,7 +14,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from kfmaps._arrays import MissingDependency, check_count, refuse
+from kfmaps._arrays import check_count, refuse
 from kfmaps._memory import check_memory
 from kfmaps._progress import CountProgress
 from kfmaps._threads import available_cores
@@ -35,7 +35,6 @@ _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM
 large temporary array a round of page faults: a third of the time."""
 _WORKER_BYTES = 120e6  # what a worker takes before it does anything
 TOO_LITTLE_MEMORY = "memory may be short: the same command with fewer --workers goes on where it was"
-_MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[distributed]' cryptography."
 
 
 class WorkerPool:
@@ -195,13 +194,10 @@ def _local_workers(count: int | None) -> Iterator[Client]:
     """
     count = available_cores() if count is None else check_count(count, "workers")
     check_memory(_WORKER_BYTES * count, "workers", f"{count:,} processes", "choose fewer; one for each core is best")
-    try:
-        import cryptography  # noqa: F401  (Dask's TLS)
-        from dask import config
-        from distributed import Client, LocalCluster
-        from distributed.security import Security
-    except ImportError as error:
-        raise MissingDependency(_MISSING_DASK.format(error)) from error
+    from dask import config
+    from distributed import Client, LocalCluster
+    from distributed.security import Security
+
     settings = {
         "distributed.scheduler.allowed-failures": MAX_DEATHS - 1,
         "distributed.scheduler.no-workers-timeout": NO_WORKERS,
@@ -239,11 +235,9 @@ def _local_workers(count: int | None) -> Iterator[Client]:
 @contextmanager
 def _running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
     """Connect to a Dask scheduler that is running, at ``address`` such as ``tcp://host:8786``."""
-    try:
-        from distributed import Client
-        from distributed.security import Security
-    except ImportError as error:
-        raise MissingDependency(_MISSING_DASK.format(error)) from error
+    from distributed import Client
+    from distributed.security import Security
+
     name, remedy = f"scheduler {address}", "check the address and that its workers run"
     parts = re.fullmatch(r"(?:([a-z]+)://)?\[?([^/\s\[\]]+)\]?:(\d{1,5})/?", address, re.ASCII)
     if parts is None or not 0 < int(parts.group(3)) < 65536:  # Dask would try such a port for ever

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import kfmaps
-from kfmaps._arrays import MissingDependency, refuse
+from kfmaps._arrays import refuse
 from kfmaps._progress import CountProgress
 from kfmaps.batch.consistent import CONSISTENT, EVIDENCE, PATHS, ConsistentResult, make_consistent
 from kfmaps.batch.jobs import TOO_LITTLE_MEMORY, WorkerPool
@@ -186,8 +186,6 @@ def _check_workers(plan: Plan, pool: WorkerPool) -> None:
         seen: Any = pool.client.run(_seen, str(plan.folder / FILE))
     except OSError as error:
         raise refuse(name, "processes that answer", "some that ended", TOO_LITTLE_MEMORY) from error
-    except MissingDependency:
-        raise
     except Exception as error:  # whatever a foreign worker runs into
         got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         raise refuse(name, "kfmaps installed on them", got, "install the same version there") from error

@@ -277,12 +277,13 @@ def _true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:
     """Write the error curve as a table (.csv) or a picture (.png, .svg, .pdf)."""
-    fractions = evaluate.error_curve(errors.errors, THRESHOLDS)
     if path.suffix.lower() == ".csv":
+        fractions = evaluate.error_curve(errors.errors, THRESHOLDS)
         rows = [[f"{t:.6g}", repr(float(f))] for t, f in zip(THRESHOLDS, fractions, strict=True)]
         write_text(path, csv_text([["error", "fraction"], *rows]), force)
         return
-    from kfmaps.viz import Curve, curves_figure, save_figure
+    from kfmaps.viz import save_figure
+    from kfmaps.viz.curves import plot_curve
 
     with atomic_output(path, force) as temporary:
-        save_figure(curves_figure([Curve(label, THRESHOLDS, fractions)]), temporary)
+        save_figure(plot_curve({label: errors.errors}), temporary)

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import blocks, check_count
+from kfmaps._arrays import blocks, check_count, index_ranges
 from kfmaps._threads import parallel
 
 _GROUP_SIZE = 128  # queries that are worked on together, at most
@@ -84,7 +84,7 @@ def _cells(
     sizes = np.bincount(patch)
     sizes = sizes[sizes > 0]
     pieces = -(-sizes // size)
-    piece = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    piece = index_ranges(np.zeros_like(pieces), pieces)
     edges = np.repeat(np.cumsum(sizes) - sizes, pieces) + np.repeat(sizes, pieces) * piece // np.repeat(pieces, pieces)
     return order, np.append(edges, len(points)), np.append(0, np.cumsum(pieces))
 
@@ -129,6 +129,4 @@ def _named(x: np.ndarray, y: np.ndarray, count: int) -> np.ndarray:
 
 def _inside(edges: np.ndarray, runs: np.ndarray) -> np.ndarray:
     """What lies in the ``runs`` between ``edges``, in their order."""
-    sizes = edges[runs + 1] - edges[runs]
-    starts = np.repeat(edges[runs] - np.cumsum(sizes) + sizes, sizes)
-    return starts + np.arange(len(starts))
+    return index_ranges(edges[runs], edges[runs + 1] - edges[runs])

@@ -8,6 +8,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from kfmaps._arrays import index_ranges
+
 
 def unique_vertices(vertices: np.ndarray) -> np.ndarray:
     """Return for each vertex the number of the first one at exactly the same position: (n,).
@@ -90,9 +92,7 @@ class VertexRings:
     def around(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return all faces around each of ``vertices (m,)``, and which entry of ``vertices`` each is for."""
         count = self.start[vertices + 1] - self.start[vertices]
-        owner = np.repeat(np.arange(len(vertices)), count)
-        first = np.cumsum(count) - count
-        return self.faces[np.arange(len(owner)) + np.repeat(self.start[vertices] - first, count)], owner
+        return self.faces[index_ranges(self.start[vertices], count)], np.repeat(np.arange(len(vertices)), count)
 
 
 def vertex_rings(faces: np.ndarray, n: int) -> VertexRings:

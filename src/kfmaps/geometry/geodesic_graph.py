@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from kfmaps._arrays import blocks, check_count
+from kfmaps._arrays import blocks, check_count, index_ranges
 from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import mesh_edges, proper_faces
 from kfmaps.geometry.mesh import Mesh
@@ -84,9 +84,7 @@ def _first_windows(vertices: np.ndarray, faces: np.ndarray, corners: np.ndarray)
 def _corners_behind(start: np.ndarray, twins: np.ndarray, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:
     """The faces behind the windows' edges, by the corner opposite the edge, and the window that each is behind."""
     count = start[windows.edge + 1] - start[windows.edge]
-    index = np.repeat(np.arange(len(count)), count)
-    within = np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)
-    return index, twins[start[windows.edge[index]] + within]
+    return np.repeat(np.arange(len(count)), count), twins[index_ranges(start[windows.edge], count)]
 
 
 def _unfolded(vertices: np.ndarray, w: _Windows, apex: np.ndarray) -> np.ndarray:

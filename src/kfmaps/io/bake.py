@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps._arrays import KfmapsWarning, index_ranges, refuse
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
@@ -78,7 +78,7 @@ def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarr
     block = np.cumsum(count) // _TEXELS
     for faces in np.split(np.arange(len(count)), np.flatnonzero(np.diff(block)) + 1):
         face = np.repeat(faces, count[faces])
-        step = np.arange(len(face)) - np.repeat(np.cumsum(count[faces]) - count[faces], count[faces])
+        step = index_ranges(np.zeros_like(faces), count[faces])
         x = low[face, 0] + step % np.maximum(span[face, 0], 1)
         y = low[face, 1] + step // np.maximum(span[face, 0], 1)
         gap = np.stack([x, y], axis=1) - at[face, 0]

@@ -6,9 +6,9 @@ import re
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import index_ranges, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
+from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
 from kfmaps.io.text import REPAIR, Rows, as_table, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
@@ -54,7 +54,7 @@ def _faces(rows: Rows, name: str) -> np.ndarray:
     check_lines(sizes < 3, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
     short, wanted = sizes >= rows.counts, "as many corners as the line says"
     check_lines(short, rows.lines, name, wanted, lambda i: f"{rows.counts[i] - 1} of {sizes[i]}")
-    corners = rows.values[gathered(rows.starts + 1, sizes)]
+    corners = rows.values[index_ranges(rows.starts + 1, sizes)]
     return whole_numbers(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
 
 

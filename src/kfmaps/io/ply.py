@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import index_ranges, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
+from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
 from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 
@@ -62,7 +62,7 @@ def _text_columns(element: _Element, rows: Rows, name: str) -> dict[str, _Column
         check_lines(sizes < 0, rows.lines, name, f"{item.name} of 0 numbers or more", lambda i: str(sizes[i]))  # noqa: B023
         first = at
         step(sizes)
-        columns[item.name] = _Column(_typed(rows.values[gathered(first, sizes)], item, name), sizes)
+        columns[item.name] = _Column(_typed(rows.values[index_ranges(first, sizes)], item, name), sizes)
     wanted = f"only the properties of a {element.name}"
     check_lines(at < ends, rows.lines, name, wanted, lambda i: f"{rows.counts[i]} numbers")
     return columns
@@ -108,7 +108,7 @@ def _binary_columns(element: _Element, data: bytes, start: int, name: str) -> tu
     raw, columns = np.frombuffer(data, dtype=np.uint8), {}
     for item, first, lengths in zip(properties, offsets, sizes, strict=True):
         skip = item.count.itemsize if item.count else 0
-        taken = raw[gathered(first + skip, lengths * item.kind.itemsize)].view(item.kind)
+        taken = raw[index_ranges(first + skip, lengths * item.kind.itemsize)].view(item.kind)
         columns[item.name] = _Column(taken, lengths if item.count else None)
     return columns, end
 

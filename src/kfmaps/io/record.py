@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse
+from kfmaps._arrays import check, index_ranges, refuse
 from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 
@@ -91,7 +91,7 @@ def fan(sizes: np.ndarray) -> np.ndarray:
     one polygon after another.
     """
     start = np.cumsum(sizes) - sizes
-    second = gathered(start + 1, sizes - 2)
+    second = index_ranges(start + 1, sizes - 2)
     return np.stack([np.repeat(start, sizes - 2), second, second + 1], axis=1)
 
 
@@ -106,12 +106,6 @@ def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     corners = np.ones(len(flat), dtype=bool)
     corners[starts] = False
     return flat[corners].astype(np.int64), flat[starts].astype(np.int64)
-
-
-def gathered(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """Return the positions starts[i], ..., starts[i] + sizes[i] - 1 for every i, one run after another."""
-    first = np.cumsum(sizes) - sizes
-    return np.repeat(starts - first, sizes) + np.arange(int(sizes.sum()))
 
 
 def unit_colors(colors: np.ndarray) -> np.ndarray:
