@@ -67,21 +67,13 @@ Log = Callable[..., None]
 class WorkLeft:
     """The pairs that are left, and how long they take.
 
-    A pair is taken to last in proportion to its size and a fixed part, and each worker to take the next that waits.
-    One that is under way lasts for half its time at least: it may be slower than those that have finished.
-
-    Attributes
-    ----------
-    sizes : dict of int to float
-        Mean number of vertices of each pair that is left, in the order in which they are begun.
-    before : list of (size, seconds)
-        Measured by earlier runs; counts until a pair has finished.
-    finished : list of (size, seconds)
+    The time of a pair is taken to grow with its size from a fixed part on, and each worker to take the next pair that
+    waits. A pair under way is taken to last for at least half its time longer: it may be slower than the finished ones.
     """
 
-    sizes: dict[int, float]
-    before: list[tuple[float, float]] = field(default_factory=list)
-    finished: list[tuple[float, float]] = field(default_factory=list)
+    sizes: dict[int, float]  # mean number of vertices of each pair that is left, in the order in which they are begun
+    before: list[tuple[float, float]] = field(default_factory=list)  # (size, seconds) of earlier runs
+    finished: list[tuple[float, float]] = field(default_factory=list)  # the same of this run
 
     @property
     def measured(self) -> list[tuple[float, float]]:

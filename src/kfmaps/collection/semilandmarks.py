@@ -13,20 +13,11 @@ _MAX_ROUNDS = 50
 
 
 def bending_energy_matrix(points: np.ndarray) -> np.ndarray:
-    """Return the matrix of the bending energy of thin-plate splines that begin at landmarks.
+    """Return the matrix ``B`` (l, l) of the bending energy of thin-plate splines from landmarks ``points (l, 3)``.
 
-    With ``B`` this matrix and ``y`` one coordinate of other landmarks, ``yᵀ B y`` is the integral of the squared second
-    derivatives of the spline that takes the landmarks there, up to a constant factor; 0 of an affine map (Bookstein,
-    Principal warps, 1989, with the kernel −|r| of three dimensions).
-
-    Parameters
-    ----------
-    points : (l, 3)
-
-    Returns
-    -------
-    (l, l) float64
-        Symmetric, positive semi-definite.
+    For one coordinate ``y`` of other landmarks, ``yᵀ B y`` is, up to a constant factor, the integral of the squared
+    second derivatives of the spline that takes the landmarks there. It is 0 for an affine map (Bookstein, Principal
+    warps, 1989, with the kernel −|r| of three dimensions).
     """
     free = null_space(np.column_stack([np.ones(len(points)), points]).T)
     return free @ solve(free.T @ -cdist(points, points) @ free, free.T, assume_a="sym")
@@ -35,23 +26,15 @@ def bending_energy_matrix(points: np.ndarray) -> np.ndarray:
 def slide_semilandmarks(
     points: np.ndarray, template: np.ndarray, curves: Sequence[tuple[np.ndarray, bool]]
 ) -> np.ndarray:
-    """Return landmarks with those of curves slid along them until the bending energy from the template is least.
+    """Return landmarks, those of curves slid along them until the bending energy from the template is least, (l, 3).
 
     A curve is the cubic spline through its points. Each round is a Gauss-Newton step: the least energy along the
     tangents (Bookstein, Landmark methods for forms without landmarks, 1997; Gunz, Mitteroecker and Bookstein,
-    Semilandmarks in three dimensions, 2005), and then along the curve itself.
+    Semilandmarks in three dimensions, 2005), and then along the curve itself. Landmarks of no curve and the ends of
+    open curves do not move.
 
-    Parameters
-    ----------
-    points, template : (l, 3)
-        Landmarks of a specimen and of what it is compared with; NaN for missing ones, which take no part.
-    curves : sequence of ((c,) int, bool)
-        The landmarks of each curve in their order, and whether the last is next to the first. The ends of an open curve
-        stay where they are, and so do landmarks of no curve.
-
-    Returns
-    -------
-    (l, 3) float64
+    ``points`` and ``template (l, 3)``: landmarks of a specimen and of what it is compared with; NaN for missing ones,
+    which take no part. ``curves``: the landmarks of each curve in order, and whether the last is next to the first.
     """
     there = np.asarray(np.isfinite(points).all(axis=1) & np.isfinite(template).all(axis=1))
     paths = [_Path(points, rows[there[rows]], closed) for rows, closed in curves if there[rows].sum() > 2]

@@ -175,13 +175,7 @@ def wave_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, energies: Arra
 
 
 def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "landmarks") -> np.ndarray:
-    """Return ``landmarks`` as (l,) int64 if they are distinct vertices of a shape with ``n``.
-
-    Raises
-    ------
-    InvalidInput
-        On a number that is not whole, out of range, or repeated.
-    """
+    """Return ``landmarks`` as (l,) int64; refuse them unless they are distinct vertices of a shape with ``n``."""
     rows = np.asarray(landmarks)
     if rows.ndim != 1 or (rows.size and not np.issubdtype(rows.dtype, np.integer)):
         raise refuse(name, "a list of whole numbers", f"{rows.dtype} of shape {rows.shape}", "give vertex numbers")

@@ -252,28 +252,13 @@ def batched_zoomout(
     threads: int | None = None,
     solvers: Callable[[int], np.ndarray] | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Refine many maps at once on samples, in single precision.
+    """Refine ``maps (m, k, k)`` on samples in single precision; return them and a source sample for each target sample.
 
-    Parameters
-    ----------
-    maps : (m, k, k)
-        Only their leading blocks of the first size count.
-    source, target : SampledBasis
-        Of q_s and q_t points, the total area 1.
-    sizes : tuple of int
-        Growing, the first at most k; the last is the size of the result.
-    cost : (q_t, q_s) or (m, q_t, q_s), optional
-        Half the squared differences of descriptors, up to a constant for each target point, for all maps or for each;
-        see :func:`kfmaps.matching.sample_pair.descriptor_cost`.
-    threads : int, optional
-    solvers : callable, optional
-        :func:`pseudo_inverse` of the target for k functions, where many refinements share them.
-
-    Returns
-    -------
-    maps : (m, k, k) float64, k the last size
-    points : (m, q_t) int64
-        A source sample for each target sample, by the map returned.
+    The maps returned have the last of the ``sizes``, which grow from at most k; of the given ones the leading blocks of
+    the first size count. ``source`` and ``target``: q_s and q_t samples of unit area. ``cost``: half the squared
+    differences of descriptors, (q_t, q_s) or (m, q_t, q_s), up to a constant for each target sample
+    (:func:`kfmaps.matching.sample_pair.descriptor_cost`). ``solvers``: :func:`pseudo_inverse` of the target for k
+    functions, where many refinements share them.
     """
     phi_s = np.asarray(to_numpy(source.functions)[:, : sizes[-1]], dtype=np.float32)
     phi_t = np.asarray(to_numpy(target.functions)[:, : sizes[-1]], dtype=np.float32)

@@ -257,16 +257,11 @@ def transfer_texture(
 ) -> MeshFile:
     """Return the target with texture coordinates and a picture.
 
-    A target with room for each face in its own atlas keeps it, and the picture is resampled into that. Otherwise it
-    gets the source's coordinates and picture; faces over a seam of the texture are drawn anew, each into a place of its
-    own in rows that are added below the picture.
+    A target with room for each face in its own atlas keeps it, and the picture is resampled into that. Otherwise, with
+    a warning where it has an atlas, it gets the source's coordinates and picture. Faces over a seam of the texture are
+    then drawn anew, each into a place of its own in rows that are added below the picture.
 
     ``picture``: the source's; ``size``: longer side of the picture in texels; by default the source's, within bounds.
-
-    Warns
-    -----
-    KfmapsWarning
-        Where faces of the target share their place in its own atlas.
     """
     own_atlas = can_bake(target)
     if target.uv is not None and not own_atlas:

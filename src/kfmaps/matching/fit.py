@@ -40,16 +40,11 @@ class FitPoints:
 
 
 def check_landmark_pairs(landmarks: ArrayLike | None, source: Shape, target: Shape) -> np.ndarray:
-    """Return ``landmarks`` as ``(l, 2)`` int64 "source, target", checked; ``None`` is none.
+    """Return ``landmarks`` as ``(l, 2)`` int64 "source, target"; ``None`` is none.
 
-    Raises
-    ------
-    InvalidInput
-        Unless they are pairs of vertices that exist, none repeated on either shape.
+    They are refused unless they are pairs of vertices that exist, none repeated on either shape.
     """
-    if landmarks is None:
-        return np.zeros((0, 2), dtype=np.int64)
-    pairs = np.asarray(landmarks)
+    pairs = np.asarray(() if landmarks is None else landmarks)
     if pairs.size == 0:
         return np.zeros((0, 2), dtype=np.int64)
     if pairs.ndim != 2 or pairs.shape[1] != 2:

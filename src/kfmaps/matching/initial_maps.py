@@ -184,10 +184,7 @@ def kernel_inits(points: SampledPair, config: Config, samples: TwoLevelSamples, 
 def drop_learned(config: Config) -> Config:
     """Return ``config`` without what :mod:`kfmaps.learn` learns from descriptors: in a search it changes no map.
 
-    Raises
-    ------
-    InvalidInput
-        Where the kernel was learned with landmarks.
+    A kernel that was learned with landmarks is refused.
     """
     if descriptor_width(config.kernel) is None:
         return config

@@ -57,12 +57,8 @@ def factorize(matrix: SparseMatrix, ordered: bool, each: Map = map) -> Solve:
 class ShiftedFactorizer:
     """Factorise multiples of one matrix plus diagonals: the order of rows that SuperLU finds for the first serves all.
 
-    To find it takes more than half of the time of a factorisation.
-
-    Parameters
-    ----------
-    matrix : (n, n) sparse
-        Symmetric, positive semi-definite.
+    To find it takes more than half of the time of a factorisation. ``matrix (n, n)``: symmetric, positive
+    semi-definite.
     """
 
     def __init__(self, matrix: SparseMatrix) -> None:

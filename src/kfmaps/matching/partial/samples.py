@@ -97,22 +97,11 @@ class PartPair:
         return np.maximum(fits / max(float(fits.max()), 1e-12), _LEAST_WEIGHT)
 
     def pair_consistency(self, scale: float, match: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return how well distances of two parts agree, and which pairs of samples are near enough to count.
+        """Return how well distances of two parts agree, (q, q) from 0 to 1, and which pairs count, (q, q) bool.
 
-        Either distance may be too long where it may lead around a boundary.
+        Either distance may be too long where it may lead around a boundary. Only pairs of near samples count.
 
-        Parameters
-        ----------
-        scale : float
-            √area of the part over that of the whole.
-        match : (q,) int
-            The whole's sample of each of the part's.
-
-        Returns
-        -------
-        fits : (q, q) float
-            From 0 to 1; 0 where a pair does not count.
-        near : (q, q) bool
+        ``scale``: √area of the part over that of the whole; ``match (q,)``: the whole's sample of each of the part's.
         """
         bounds, away = self.bounds(scale), self.whole.boundary_distance[match]
         there = self.whole.distances[np.ix_(match, match)]
