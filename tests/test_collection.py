@@ -7,7 +7,6 @@ import itertools
 import numpy as np
 import pytest
 
-from kfmaps._arrays import InvalidInput
 from kfmaps.collection.pair_graph import (
     bridges,
     medoid,
@@ -231,15 +230,6 @@ def test_parts_that_no_pair_joins_stand_alone() -> None:
     assert len(set(found.component[:3])) == 1
     assert found.component[0] != found.component[3]
     assert max(m.max() for m in found.residuals) < 1e-12
-
-
-def test_links_that_cannot_be() -> None:
-    C = np.eye(K)
-    for link in (Edge(0, 5, (CandidateMap(C),)), Edge(1, 1, (CandidateMap(C),))):
-        with pytest.raises(InvalidInput, match="two of the shapes"):
-            synchronize(3, [link], K)
-    with pytest.raises(InvalidInput, match="functions or more"):
-        synchronize(3, [Edge(0, 1, (CandidateMap(C[:4, :4]),))], K)
 
 
 # --- ways, repair, hands --------------------------------------------------------------------------------------------

@@ -30,9 +30,9 @@ def test_landmarks_are_advised_only_where_none_were_given() -> None:
 
 def test_a_page_says_the_same() -> None:
     for kind, confidence, landmarks in (("likely", 0.6, 0), ("unlikely", 0.1, 2), ("unlikely", None, 0)):
-        record = verdict_record({"verdict": kind, "confidence": confidence, "landmarks": landmarks})
+        record = verdict_record(kind, confidence, landmarks)
         assert record == {"kind": kind, "text": verdict_text(kind, landmarks), "confidence": confidence}
-    assert verdict_record({"verdict": "unheard of"}) is None
+    assert verdict_record("unheard of", 0.5, 0) is None
 
 
 def test_probabilities_are_whole_per_cents_but_at_the_ends() -> None:

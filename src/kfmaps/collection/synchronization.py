@@ -17,7 +17,6 @@ import numpy as np
 from scipy.sparse import csr_array, eye_array
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
-from kfmaps._arrays import check_count, refuse
 from kfmaps.collection.pair_graph import bridges
 from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.connectivity import component_labels
@@ -101,13 +100,6 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
 
     ``count``: number of shapes; ``functions``: size ``k`` of the maps that are compared.
     """
-    check_count(count, "shapes", low=2)
-    check_count(functions, "functions", low=2)
-    for edge in edges:
-        if not (0 <= edge.source < count and 0 <= edge.target < count and edge.source != edge.target):
-            raise refuse("pairs", f"two of the shapes 0 to {count - 1}", f"{edge.source} and {edge.target}", "fix it")
-        if not edge.candidates or any(min(c.map.shape) < functions for c in edge.candidates):
-            raise refuse("maps", f"{functions} functions or more", "smaller maps or none", "take larger maps")
     ends = [(edge.source, edge.target) for edge in edges]
     problem = _Problem(
         count,

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
 from kfmaps._arrays import refuse
@@ -50,13 +47,11 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-def verdict_record(summary: Mapping[str, Any]) -> dict[str, object] | None:
-    """Return the verdict that ``summary`` names, in words; ``None`` where it names none."""
-    kind = summary.get("verdict")
-    if not isinstance(kind, str) or kind not in VERDICTS:
+def verdict_record(verdict: str, confidence: float | None, n_landmarks: int) -> dict[str, object] | None:
+    """Return a verdict with its text; ``None`` for one that this version does not know."""
+    if verdict not in VERDICTS:
         return None
-    confidence = summary.get("confidence")
-    return {"kind": kind, "text": verdict_text(kind, summary.get("landmarks", 0)), "confidence": confidence}
+    return {"kind": verdict, "text": verdict_text(verdict, n_landmarks), "confidence": confidence}
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, object]:

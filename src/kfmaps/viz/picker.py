@@ -220,8 +220,8 @@ class PickerServer:
         self._maps.append(found)
         label = plural(len(pairs), "landmark")
         confidence = encode_floats(local_confidence(source, target, points))
-        told = {"verdict": found.verdict, "confidence": found.confidence, "landmarks": len(pairs)}
-        return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict_record(told)}
+        verdict = verdict_record(found.verdict, found.confidence, len(pairs))
+        return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict}
 
     def _pairs(self, request: JsonObject) -> np.ndarray:
         return check_pairs(request.get("pairs"), self.source, self.target)

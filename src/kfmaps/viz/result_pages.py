@@ -112,12 +112,11 @@ def match_page(
     if truth is not None:
         rows["errors"] = list(vertex_errors(mesh, maps, truth.source, truth.target))
     waves = [values.T for values in signatures(mesh, target)] if descriptors else [[], []]
-    summary = _match_summary(match)
     data = {
         "kind": "result",
         "up": up,
         "views": views_record(mesh, target, maps[0]),
-        "verdict": verdict_record(summary),
+        "verdict": verdict_record(match.verdict, match.confidence, len(match.landmarks)),
         "source": source_record(mesh, names[0], colors),
         "target": shape_record(target, names[1]),
         "rotation": _rotation_by_map(mesh, target, maps[0]).ravel(),
@@ -129,7 +128,7 @@ def match_page(
         ],
         "matrix": None if matrix is None else encode_floats(matrix),
         "textures": [_texture_record(shape) for shape in _textured(file, match, target)],
-        "summary": summary,
+        "summary": _match_summary(match),
     }
     return document("result.html.j2", title=" → ".join(names), data=data)
 
