@@ -672,17 +672,7 @@ MUTANTS = tuple(
             "test_registration_evidence -k over_usual",
         ),
         (
-            "return replace(best, extremity_error=None).score - replace(rival, extremity_error=None).score",
-            "return best.score - rival.score",
-            "test_alternating_registration -k surer",
-        ),
-        (
-            "misplaced = -numbers.w_extremity_distances",
-            "misplaced = numbers.w_extremity_distances",
-            "test_registration_evidence -k over_usual",
-        ),
-        (
-            "reference_values(found, np.mean)[0], *reference_values(found, min)[1:]",
+            "reference_values(found, np.mean)[0], reference_values(found, min)[1]",
             "reference_values(found, np.mean)",
             "test_registration_evidence -k looks_decide",
         ),

@@ -34,7 +34,7 @@ from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.result_groups import MatchRegistration
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, Quality, probability
+from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import (
     ProxyPair,
@@ -518,28 +518,6 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
         assert found.score.initialization == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
     assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
-
-
-def test_distances_from_extremities_choose_and_make_no_map_surer(creatures, monkeypatch):
-    """Also where they alone tell the best map from one that is better without them."""
-    source, target, _ = creatures
-    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, deformation_energy=0.03)
-    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
-    monkeypatch.setattr(choose, "rerank_near_duplicates", lambda ranked, *_: ranked)
-    monkeypatch.setattr(choose, "map_distance", lambda *_: 1.0)
-    monkeypatch.setattr(choose, "alternative_maps", lambda *_: ())
-
-    def chance(*others: Candidate) -> float | None:
-        monkeypatch.setattr(choose, "refine_by_registration", lambda *_: ([one, *others], ()))
-        return choose.search_map(source, target, kfmaps.Config()).confidence
-
-    one = replace(one, extremity_error=0.0)
-    near, far = (replace(one, strain=margin / SCORE.w_strain, extremity_error=0.5) for margin in (1.0, 2.0))
-    ahead, other = replace(near, strain=-1.0 / SCORE.w_strain), replace(near, strain=0.0, extremity_error=None)
-    assert chance(near) == pytest.approx(probability(0.0, 1.0, 0.03))
-    assert chance(far, near, other) == pytest.approx(probability(0.0, 1.0, 0.03))
-    assert chance(ahead) == chance(other) == pytest.approx(probability(0.0, 0.0, 0.03))
 
 
 def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):

@@ -18,7 +18,6 @@ from kfmaps.matching.extremity_matching import (
     ExtremityMatch,
     ExtremityVertices,
     extremity_cost,
-    extremity_error,
     extremity_features,
     extremity_similarity,
     match_extremities,
@@ -115,18 +114,6 @@ def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
     assert (same.argmin(axis=1) == np.arange(len(same))).mean() > 0.99
     assert np.diag(turned).mean() > 0.1
     assert extremity_features(one, whole.source).shape == (len(one.distances[0]), m + m * (m - 1) // 2)
-
-
-def test_a_map_is_off_by_the_match_that_suits_it_best(probes):
-    one, other = probes
-    whole, few = identity(5), identity(4)
-    points = np.random.default_rng(0).integers(len(one.positions), size=len(other.positions))
-    costs = [extremity_cost(one.extremities, other.extremities, match) for match in (whole, few)]
-    means = [cost[np.arange(len(points)), points].mean() for cost in costs]
-    assert [extremity_error(points, [m], one, other) for m in (whole, few)] == pytest.approx(means)
-    assert extremity_error(points, [whole, few], one, other) == pytest.approx(min(means))
-    assert extremity_error(np.arange(len(one.positions)), [whole], one, one) == 0.0
-    assert extremity_error(points, [], one, other) is None
 
 
 def test_the_true_pairing_is_among_the_first(creature, probes, on):

@@ -137,14 +137,13 @@ def one_of(creatures):
 
 def test_looks_and_strain_count_over_usual_ones(creatures):
     one = one_of(creatures)[1]
-    evidence = ((-1.0, 0.2, None), (-2.0, 0.26, 0.3), (-2.0, None, 0.5), (None, None, None))
-    some = [replace(one, strain=s, shot_error=m, extremity_error=e) for s, m, e in evidence]
-    usual = (-2.0, 0.2, 0.3)
+    some = [replace(one, strain=s, shot_error=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
+    usual = (-2.0, 0.2)
     assert reference_values(some, min) == usual
-    assert reference_values(some, np.mean) == pytest.approx((-5 / 3, 0.23, 0.4))
-    assert reference_values(some[3:], min) == (0.0, 0.0, 0.0)
+    assert reference_values(some, np.mean) == pytest.approx((-1.5, 0.23))
+    assert reference_values(some[2:], min) == (0.0, 0.0)
     lost = [one.score - normalize_errors(c, usual).score for c in some]
-    assert lost == pytest.approx([SCORE.w_strain, SCORE.w_shot * 0.06, SCORE.w_extremity_distances * 0.2, 0.0])
+    assert lost == pytest.approx([SCORE.w_strain, SCORE.w_shot * 0.06, 0.0])
 
 
 def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypatch):
@@ -162,11 +161,8 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    # Distances from extremities tell too.
-    for matches, names in ((mending.match_extremities, ["truth", "bad"]), (lambda *_what: [], ["bad", "truth"])):
-        monkeypatch.setattr(mending, "match_extremities", matches)
-        ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
-        assert [c.name for c in ranked] == names
+    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
+    assert [c.name for c in ranked] == ["bad", "truth"]
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
     monkeypatch.setattr(mending, "score_maps", lambda starts, *_w: [bad if starts[0].name == "bad" else good])
@@ -178,24 +174,19 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
 
 
 def test_repairs_that_were_given_up_count_as_the_worst(creatures, monkeypatch):
-    """Maps made from matches of extremities agree with these: by their own error one that is wrong would lead."""
+    """By less evidence one that is wrong would lead."""
     source, target, _ = creatures
     on, one = one_of(creatures)
     maps = [
         replace(one, name=str(i), points=np.roll(one.points, 50 * i), functional_map=i * np.eye(5)) for i in range(3)
     ]
-    ended = {i: replace(c, extremity_error=0.1 + 0.2 * i, strain=float(i)) for i, c in enumerate(maps[:2])}
+    ended = {i: replace(c, shot_error=0.1 + 0.2 * i, strain=float(i)) for i, c in enumerate(maps[:2])}
     monkeypatch.setattr(mending, "compared", lambda found, *_what: found)
+    monkeypatch.setattr(mending, "_repair_all", lambda *_what: (ended, {2: maps[2]}))
     nowhere, copies = np.zeros((0, 2), dtype=np.int64), ProxyCache.of(source, target, on)
-
-    def errors() -> dict[str, float | None]:
-        monkeypatch.setattr(mending, "_repair_all", lambda *_what: (ended, {2: replace(maps[2], extremity_error=-1.0)}))
-        return {c.name: c.extremity_error for c in refine_by_registration(maps, on, copies, nowhere, 1)[0]}
-
-    assert errors() == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
-    monkeypatch.setattr(mending, "match_extremities", lambda *_what: [])
-    ended = {i: replace(c, extremity_error=None) for i, c in ended.items()}
-    assert errors() == {"0": None, "1": None, "2": None}
+    found = refine_by_registration(maps, on, copies, nowhere, 1)[0]
+    assert {c.name: c.shot_error for c in found} == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
+    assert {c.name: c.strain for c in found} == {"0": 0.0, "1": 1.0, "2": 1.0}
 
 
 def exchanged(knees, height):

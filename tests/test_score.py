@@ -27,7 +27,7 @@ from kfmaps.matching.score import (
 GUARDS = ("kfmaps.matching.score",)
 
 QUALITY = Quality(0.9, 0.1, 0.12, 0.2, 0.1, 0.9, 0.05, 0.3)
-REGISTERED: dict[str, Any] = {"deformation_energy": 0.3, "strain": 0.4, "shot_error": 0.05, "extremity_error": 0.03}
+REGISTERED: dict[str, Any] = {"deformation_energy": 0.3, "strain": 0.4, "shot_error": 0.05}
 CANDIDATE = Candidate("a", np.eye(2), np.zeros(3, dtype=int), QUALITY, True, np.array([0.1, 0.9]), **REGISTERED)
 PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2.0)
 
@@ -46,7 +46,6 @@ CANDIDATE_WEIGHTS = {
     "w_deformation": -5.0 * np.log(2.0),
     "w_strain": -6.0 * 0.4,
     "w_shot": -60.0 * 0.05,
-    "w_extremity_distances": -60.0 * 0.03,
     "w_landmark": -2.0 * (1 / 3 + 1),
 }
 """What each weight contributes to the score of :data:`CANDIDATE`."""

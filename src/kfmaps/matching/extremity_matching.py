@@ -132,18 +132,6 @@ def extremity_cost(
     return cost
 
 
-def extremity_error(
-    points: np.ndarray, likely: list[ExtremityMatch], source: ShapeSamples, target: ShapeSamples
-) -> float | None:
-    """Return the mean squared difference of the features of samples that a map ``points (q_t,)`` takes to each other.
-
-    That of the match among ``likely`` that suits the map best; ``None`` without any.
-    """
-    a, b = source.extremities, target.extremities
-    off = (extremity_features(a, one.source)[points] - extremity_features(b, one.target) for one in likely)
-    return min((float((d**2).sum(axis=1).mean()) for d in off), default=None)
-
-
 def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityMatch | None:
     """Return the extremities that a map ``points (q_t,)`` takes near each other; ``None`` for fewer than three."""
     a, b = source.extremities, target.extremities

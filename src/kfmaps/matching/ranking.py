@@ -27,7 +27,7 @@ from kfmaps.shape import Shape, mirror_image
 
 BENT = 3
 """Distinct maps that are registered."""
-RELATIVE = ("strain", "shot_error", "extremity_error")
+RELATIVE = ("strain", "shot_error")
 """Evidence of a candidate that tells only beside that of others."""
 
 
@@ -140,7 +140,7 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
 
     found = parallel(with_shot_error, order[:2], threads)
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.
-    middle = reference_values(found, np.mean)[0], *reference_values(found, min)[1:]
+    middle = reference_values(found, np.mean)[0], reference_values(found, min)[1]
     return in_order([normalize_errors(c, middle) for c in found]) + order[2:]
 
 

@@ -20,10 +20,8 @@ from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.matching.candidates import FINE, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
-    ExtremityMatch,
     ExtremityVertices,
     complete_match,
-    extremity_error,
     match_extremities,
     match_of_map,
     unused_matches,
@@ -53,7 +51,6 @@ class RepairSetting:
     landmarks: np.ndarray
     shot: DescriptorGuidance | None
     graphs: tuple[csr_array, csr_array]  # geodesic graphs of both meshes, of depth 1
-    likely: list[ExtremityMatch]  # extremity matches, the likeliest first
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +70,7 @@ class SwappedRepair:
         *_, made = _repair_rounds(self.setting, self.candidate, self.extremities, swapped=False)
         if made is None:
             return None
-        made = _with_extremity_error(self.setting, score_registered(made, self.setting.proxies))
-        made = _with_shot_error(self.setting, made)
+        made = _with_shot_error(self.setting, score_registered(made, self.setting.proxies))
         return normalize_errors(made, self.reference)
 
 
@@ -100,20 +96,15 @@ def refine_by_registration(
     if finer is None:
         return ranked, ()
     graphs = geodesic_graph(copies.source.mesh, 1), geodesic_graph(copies.image.mesh, 1)
-    likely = match_extremities(samples.source, samples.target, samples.descriptor_cost)
-    setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs, likely)
+    setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs)
     near, rest = repairable(ranked, samples.source)
-    begun = _begin(near, setting)
+    begun = _begin(near, samples)
     ended, behind = _repair_all(setting, begun, near, threads, progress)
     tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
     # Those that were given up count as bent as badly as the worst.
     energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
-    energy, (strain, shot_error, misplaced) = max(energies, default=None), reference_values(tried, max)
-    off = misplaced if likely else None
-    given_up = [
-        replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error, extremity_error=off)
-        for c in behind.values()
-    ]
+    energy, (strain, shot_error) = max(energies, default=None), reference_values(tried, max)
+    given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
     reference, every = reference_values(tried, min), [*tried, *given_up]
     order = in_order([normalize_errors(c, reference) for c in every])
     which = dict(zip((id(c.functional_map) for c in every), (*ended, *behind), strict=True))
@@ -163,7 +154,7 @@ def _repair_all(
     done[:] = 1.0
     done[going] = 0.5
     ended = zip(going, parallel(end_one, going, threads), strict=True)
-    return {i: _with_extremity_error(setting, c) for i, c in ended if c is not None}, behind
+    return {i: c for i, c in ended if c is not None}, behind
 
 
 def _quality(one: Candidate) -> float:
@@ -211,9 +202,9 @@ def register_map_on_proxies(
         yield None
 
 
-def _begin(near: list[Candidate], setting: RepairSetting) -> list[tuple[Candidate, ExtremityVertices | None]]:
+def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
     """Return what repairs begin with: candidates, and maps of likely extremity matches that none of them has."""
-    samples, likely = setting.samples, setting.likely
+    likely = match_extremities(samples.source, samples.target, samples.descriptor_cost)
     found = [match_of_map(one.points, samples.source, samples.target) for one in near]
     known = [one and complete_match(one, likely) for one in found]
     begun = [
@@ -243,11 +234,6 @@ def _best_repair(
     least = max(map(_quality, made)) - SCORE.repair_lag
     scored = [score_registered(c, setting.proxies) for c in made if _quality(c) >= least]
     return max(scored, key=lambda c: c.score)
-
-
-def _with_extremity_error(setting: RepairSetting, one: Candidate) -> Candidate:
-    source, target = setting.samples.source, setting.samples.target
-    return replace(one, extremity_error=extremity_error(one.points, setting.likely, source, target))
 
 
 def _with_shot_error(setting: RepairSetting, one: Candidate) -> Candidate:

@@ -135,9 +135,6 @@ class Scoring:
     """Weight of the strain over a usual one, where it is known."""
     w_shot: float = 60.0
     """Weight of the SHOT error after registration, where it is known; right and wrong maps differ by 0.02 and more."""
-    w_extremity_distances: float = 60.0
-    """Weight of the error of distances from extremities after repair, where it is known; a long tail for a leg makes
-    0.03 and more (research/score.md)."""
     w_landmark: float = 2.0
     """Cost of a landmark whose image is simply wrong."""
     w_torn: float = 25.0
@@ -261,12 +258,11 @@ class Candidate:
     uses_descriptors: bool = True  # a map that was refined without descriptors is only an alternative
     # (l,): distance of each landmark's image from where it belongs, in √area.
     landmark_errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    # See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. All but the first are over those
-    # of a usual or of the best candidate.
+    # See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. The latter two are over those of a
+    # usual or of the best candidate.
     deformation_energy: float | None = None
     strain: float | None = None
     shot_error: float | None = None
-    extremity_error: float | None = None  # :func:`kfmaps.matching.extremity_matching.extremity_error`
     # (n_s, 3): the source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
     registered_vertices: np.ndarray | None = None
     swapped: bool = False
@@ -281,7 +277,7 @@ class Candidate:
     @property
     def unregistered(self) -> Candidate:
         """The same without evidence of a registration."""
-        return replace(self, deformation_energy=None, strain=None, shot_error=None, extremity_error=None)
+        return replace(self, deformation_energy=None, strain=None, shot_error=None)
 
 
 @dataclass(frozen=True)
@@ -324,9 +320,8 @@ def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
         deformed = -numbers.w_deformation * math.log(candidate.deformation_energy / numbers.usual_deformation)
     strained = -numbers.w_strain * (candidate.strain or 0.0)
     differs = -numbers.w_shot * (candidate.shot_error or 0.0)
-    misplaced = -numbers.w_extremity_distances * (candidate.extremity_error or 0.0)
     extremities = numbers.w_extremities * candidate.quality.extremity_descriptor_error
-    evidence = quality_score(candidate.quality, numbers) - extremities + deformed + strained + differs + misplaced
+    evidence = quality_score(candidate.quality, numbers) - extremities + deformed + strained + differs
     missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
     return round(evidence - numbers.w_landmark * missed, 9)
 

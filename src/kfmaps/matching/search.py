@@ -369,7 +369,7 @@ def _best_by_surface(state: _Search) -> list[Candidate]:
 
 def _without_evidence(found: Candidate) -> Candidate:
     """Return a candidate without landmarks, and without what is only known beside other candidates."""
-    return replace(found, landmark_errors=np.zeros(0), strain=None, shot_error=None, extremity_error=None)
+    return replace(found, landmark_errors=np.zeros(0), strain=None, shot_error=None)
 
 
 def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> SearchResult:
@@ -377,9 +377,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     config, samples = state.config, state.samples.whole
     assert config.search is not None
     near = [(c, margin) for c, margin in state.doubts if margin < SCORE.shot_margin]
-    # Distances from extremities choose between repaired maps; the calibration does not know them.
-    rivals = [c for c in rest if c.extremity_error is not None] or rest[:1]
-    margins = [*(margin for _, margin in near), *(_margin(best, rival) for rival in rivals)]
+    margins = [*(margin for _, margin in near), *(_margin(best, rival) for rival in rest[:1])]
     if not _are_surfaces(samples) and (~state.wrong).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
     others = [*(c for c, _ in near), *rest][: config.search.n_alternatives]
@@ -421,7 +419,7 @@ def _margin(best: Candidate, rival: Candidate) -> float:
     ahead = best.quality.score - rival.quality.score
     if ahead < SCORE.clear_margin and _excess(rival) < 0.0:
         return ahead
-    return replace(best, extremity_error=None).score - replace(rival, extremity_error=None).score
+    return best.score - rival.score
 
 
 def ignore_landmarks(found: Candidate, samples: SamplePair, threads: int | None = None) -> Candidate:
