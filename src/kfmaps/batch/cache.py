@@ -23,24 +23,24 @@ from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
 _LAYOUT = 4  # raised when what an entry holds changes
-_PLAIN = "plain"  # name of the text of an entry with all that is no array
+_PLAIN = "plain"  # name of the JSON text in an entry: everything but the arrays
 
 _Record = TypeVar("_Record")
 
 
 def file_digest(path: str | Path) -> str:
-    """Return 32 hexadecimal digits for the content of a file, and of those that a .gltf keeps its numbers in."""
+    """Return a digest of a file, 32 hexadecimal digits; of a .gltf with the files that hold its numbers."""
     with open(path, "rb") as file:
         digest = hashlib.file_digest(file, "sha256")
     if Path(path).suffix.lower() == ".gltf":
-        with suppress(InvalidInput):  # what cannot be read is told when its shape is prepared
+        with suppress(InvalidInput):  # reported when the shape is prepared
             for beside in buffer_files(read_bytes(path), str(path)):
                 digest.update(hashlib.sha256(read_bytes(beside)).digest())
     return digest.hexdigest()[:32]
 
 
 def shape_key(content: str, suffix: str, config: Config) -> str:
-    """Return the name of an entry: ``content`` (digest of the mesh's file) with all settings of its preparation.
+    """Return the name of a cache entry: a digest of ``content``, the mesh's digest, and the settings that matter.
 
     ``suffix`` is the file's extension, which decides how its content is read.
     """
@@ -64,7 +64,7 @@ def _samples_path(entry: Path, seed: int) -> Path:
 
 
 def cached_samples(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
-    """Return what a search needs to know of ``shape``: read where it is kept, else worked out and kept."""
+    """Return the samples of ``shape`` for a search: read from the cache, or computed and put there."""
     path = _samples_path(entry, seed)
     samples = load_record(path, ShapeSamples)
     if samples is None:

@@ -1,6 +1,6 @@
-"""Make the maps of a whole run agree over cycles; which are replaced, by what and why is written beside them.
+"""Make the maps of a run agree over cycles; write beside them which are replaced, by what and why.
 
-Nothing of the run itself is touched, so that the same evidence leads to the same end however often it is cut short.
+The run's own files do not change, so that a run that is interrupted and repeated ends with the same result.
 The scores of each pair, each composition and each replacement are a file of their own, with a digest of its inputs.
 """
 
@@ -55,34 +55,34 @@ DIFFERENCE_KINDS = ("area", "conformal")
 
 @dataclass(frozen=True, eq=False)
 class ShapeStatistics:
-    """What maps that agree say of the shapes."""
+    """Statistics of the shapes, from maps that agree."""
 
     table: tuple[tuple[str, ...], ...] = ()  # titles, then a row for each shape
-    # Of each component that pairs join, the largest first, by name: its shapes, the one in the middle, what the
-    # principal components explain, and where on the middle one the shapes vary.
+    # Named arrays of each connected component, the largest first: its shapes, its medoid, the variance that the
+    # principal components explain, and where on the medoid the shapes vary.
     parts: tuple[dict[str, np.ndarray], ...] = ()
-    note: str = ""  # what could not be
+    note: str = ""  # what could not be computed
 
 
 @dataclass(frozen=True, eq=False)
 class ConsistentResult:
     """A run whose maps were made to agree."""
 
-    results: tuple[Result, ...]  # those given, with their probabilities; of replaced maps the new
-    before: dict[Pair, Result]  # of replaced maps the old
+    results: tuple[Result, ...]  # those given, with their probabilities; new ones of replaced maps
+    before: dict[Pair, Result]  # the old ones of replaced maps
     doubted: tuple[str, ...]  # a line for each pair that others contradict and for which nothing better is known
     notes: tuple[str, ...] = ()  # what could not be taken into account
     shapes: ShapeStatistics = field(default_factory=ShapeStatistics)
 
 
 def map_in_use(folder: Path, key: str) -> Path:
-    """Return the map of a pair: that which replaces its own, or its own."""
+    """Return the file of a pair's map: of the replacement, where there is one."""
     other = map_path(folder / CONSISTENT, key)
     return other if result_path(folder / CONSISTENT, key).exists() and other.exists() else map_path(folder, key)
 
 
 def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> ConsistentResult:
-    """Find which maps of a finished run are wrong, replace them, and write what came of it.
+    """Find which maps of a finished run are wrong, replace them, and write tables of the result.
 
     ``results``: of the plan's pairs; those that failed are left as they are.
     """
@@ -153,7 +153,7 @@ class _ScoreTask:
 
 @dataclass(frozen=True)
 class _ReplaceTask:
-    """A map to be replaced: by which composition, if by one, and the result of the map that was in use."""
+    """A map to be replaced, the composition that replaces it (if one does), and the result of the map in use."""
 
     task: PairTask
     change: Replacement
@@ -183,7 +183,7 @@ def _map_digest(task: PairTask) -> str:
 def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
     """Score maps of a pair, unless their scores are kept.
 
-    Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
+    Maps of parts are left out: neither cycles nor a common basis are defined where points have no counterpart.
     """
     inputs = digest_of([_map_digest(task) for task, _, _ in job.steps] or _map_digest(job.task), 32)
     kept = load_record(job.file, _Evidence)
@@ -255,7 +255,7 @@ def _remove_replacements(plan: Plan, kept: set[str]) -> None:
 def _write_pairs(
     path: Path, tasks: list[PairTask], scores: list[list[ScoredMap]], names: list[str], repaired: RepairResult
 ) -> None:
-    """What the collection says of every pair."""
+    """Write a row for each pair: candidates, probability, residual, score, and what replaced its map."""
     rows: list[list[object]] = [
         ["source", "target", "candidates", "probability", "residual", "score", "changed", "why"]
     ]

@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 _Item = TypeVar("_Item")
 _Value = TypeVar("_Value")
 
-_SILENT = logging.CRITICAL + 1  # level of Dask's log: it calls a client that has gone critical, with a traceback
+_SILENT = logging.CRITICAL + 1  # level of Dask's log: it reports a client that has left as critical, with a traceback
 MAX_DEATHS = 3
 """Workers that may die over one task before it is given up."""
 NO_WORKERS = "60s"
 """How long a run goes on without any worker; one that was killed takes a few seconds to come back."""
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
-"""What a worker's environment is given. Dask's own list also has malloc return memory at once, which makes every
-large temporary array a round of page faults: a third of the time."""
+"""Environment of a worker. Dask's default also makes malloc return memory at once: then page faults take a
+third of the time."""
 _WORKER_BYTES = 120e6  # what a worker takes before it does anything
 TOO_LITTLE_MEMORY = "memory may be short: the same command with fewer --workers goes on where it was"
 
@@ -80,7 +80,7 @@ class WorkerPool:
     def close(self) -> None:
         """End the workers; they are started again when they are needed again."""
         if self._client is not None:
-            with suppress(Exception):  # else the scheduler tells a client that has gone of its going
+            with suppress(Exception):  # else the scheduler would report to a client that has left
                 self._client.unsubscribe_topic("all")
         self._stack.close()
         self._client = None
@@ -107,8 +107,8 @@ class WorkerPool:
     ) -> Generator[tuple[int, _Value | Exception]]:
         """Yield the number of each item with its value, or with the exception that it ended in, as they finish.
 
-        Dask has as many tasks as can run at once, so there may be any number of them, and hands those of a worker that
-        died to another.
+        Dask gets only as many tasks as can run at once, so there may be any number of items. It hands the tasks of a
+        worker that died to another.
 
         ``label``: name of an item in the log. ``n_begun``: how often work on an item has begun. Dask blames every task
         that was with a worker that died; an item that has not begun :data:`MAX_DEATHS` times is tried again.
@@ -134,7 +134,8 @@ class WorkerPool:
                 del self._labels[future.key], self.begun[number]
                 value: _Value | Exception
                 try:
-                    # Not by as_completed: what is raised while that fetches a value is lost, and it waits for ever.
+                    # Not fetched by as_completed: an error while fetching would be lost there, and it would wait for
+                    # ever.
                     value = future.result()
                 except CancelledError:
                     remedy = "run the same command again to go on"
@@ -245,13 +246,13 @@ def _running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
     secret = parts.group(1) == "tls"
     if secret and Security().get_connection_args("client").get("ssl_context") is None:
         raise refuse(name, "certificates in Dask's configuration", "none", "see Dask's pages on TLS")
-    # A client that cannot be made is not silent when it goes away; so it is made only where somebody answers.
+    # A client that cannot connect logs errors when it is deleted, so it is made only where a scheduler answers.
     if not _answers(parts.group(2), int(parts.group(3)), timeout, secret):
         raise refuse(name, "a running Dask scheduler", "no answer", remedy)
     with _quiet():
         try:
             client = Client(address, timeout=timeout, set_as_default=False)
-        except Exception as error:  # what answers may be anything, and Dask runs into whatever it says
+        except Exception as error:  # another program may answer, which Dask does not expect
             got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
             raise refuse(name, "a running Dask scheduler", got, remedy) from error
         with client:
@@ -263,9 +264,9 @@ def _running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
 
 
 def _answers(host: str, port: int, timeout: float, secret: bool) -> bool:
-    """Whether somebody is there who begins as a scheduler does; for another Dask would wait for ever.
+    """Whether a scheduler answers: with another program Dask would wait for ever.
 
-    It speaks first, and begins with the length of what it says; where all is ``secret`` the client begins.
+    A scheduler speaks first, and begins with the length of its message; with TLS (``secret``) the client speaks first.
     """
     try:
         with socket.create_connection((host, port), timeout) as connection:
@@ -276,7 +277,7 @@ def _answers(host: str, port: int, timeout: float, secret: bool) -> bool:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Hold back Dask's log of lost connections and restarted workers, which the run tells of in its own words."""
+    """Silence Dask's log of lost connections and restarted workers, which the run reports itself."""
     handlers = logging.getLogger("distributed").handlers
     levels = [handler.level for handler in handlers]
     for handler in handlers:

@@ -33,7 +33,7 @@ from kfmaps.io.text import complete_or_refuse, read_table
 from kfmaps.io.transfer import Counterparts, find_counterparts
 
 CORRECTIONS = "corrections.csv"
-"""What somebody has corrected by hand: the one file of a study that :func:`write_study` leaves alone."""
+"""The corrections made by hand: the one file of a study that :func:`write_study` does not replace."""
 
 
 def write_study(output: Path, study: Sequence[SpecimenLandmarks], suffix: str) -> list[Path]:
@@ -115,7 +115,7 @@ def write_corrections(output: Path, corrections: Mapping[str, Corrections]) -> N
 
 
 def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks]) -> list[Path]:
-    """Procrustes coordinates, principal components and their extremes, of the landmarks that any specimen has."""
+    """Write Procrustes coordinates, principal components and their extremes; return the main files."""
     template = next(one for one in study if not one.verdict)
     points = np.stack([one.points.points for one in study])
     seen = np.isfinite(points).all(axis=2)
@@ -206,7 +206,7 @@ def write_local_differences(
 
 
 def _sliders(names: Sequence[str]) -> list[list[int]]:
-    """The points that slide between which others, counted from 1, as geomorph's ``gpagen(curves = )`` wants them."""
+    """Rows (before, slide, after) of the points that slide, counted from 1, for geomorph's ``gpagen(curves = )``."""
     found = []
     for curve in find_curves(names):
         rows = [row + 1 for row in curve.rows]

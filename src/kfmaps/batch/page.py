@@ -38,7 +38,7 @@ from kfmaps.viz.result_pages import match_page
 
 PAGE = "summary.html"
 _PAGES = "pages"
-_MAX_NAMED = 60  # shapes up to which their names stand in the chart of principal components
+_MAX_NAMED = 60  # most shapes whose names are written into the chart of components
 _TEMPLATES = environment("kfmaps.batch")
 _TEMPLATES.filters |= {"percent": percent, "in_words": format_seconds}
 
@@ -58,7 +58,7 @@ _COLUMNS: tuple[_Column, ...] = (
     ("replaced by", lambda r: r.changed or None, str),
     ("time (s)", lambda r: r.seconds.get("total"), "{:.1f}".format),
 )
-"""Title, value to sort by and text of the columns of all pairs. A column of which nothing is known is left out."""
+"""Columns of the table of pairs: title, value to sort by, and text. A column without values is left out."""
 
 
 def write_page(
@@ -155,7 +155,7 @@ def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
 
 
 def _picture(figure: Figure, kind: str) -> str:
-    """The figure as an address: of a chart as "svg+xml", whose text can be searched, or as "png"."""
+    """Return the figure as a data address: "svg+xml" for charts, whose text can be searched, or "png"."""
     buffer = io.BytesIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):
         save_figure(make_transparent(figure), buffer, kind.removesuffix("+xml"))
@@ -163,7 +163,7 @@ def _picture(figure: Figure, kind: str) -> str:
 
 
 def _specimens(plan: Plan, known: ShapeStatistics) -> dict[str, Any]:
-    """What the maps say of the shapes: a chart and a picture of each component, and a table; empty without."""
+    """Return a chart and a picture of each connected component, and the table of shapes; empty without any."""
     if not known.parts:
         return {}
     rows = [dict(zip(known.table[0], row, strict=True)) for row in known.table[1:]]
@@ -209,12 +209,12 @@ def _variation(path: Path, part: dict[str, np.ndarray]) -> str:
 
 
 def _quiet_mesh(path: Path) -> Mesh:
-    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the run has noted them
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the run has reported them
         return read_mesh(path)
 
 
 def _error_limit(results: Sequence[Result]) -> float | None:
-    """Where the colours of errors end in all pictures, so that they can be compared: thrice that of maps not bad."""
+    """Return the error at which the colours of all pictures end: from thrice the errors of maps that are not bad."""
     errors = np.array([r.error_mean for r in results if r.error_mean is not None])
     right = errors[errors <= BAD] if (errors <= BAD).any() else errors
     return error_limit(3 * right) if len(right) else None
@@ -227,7 +227,7 @@ def _pictures(
     limit: float | None,
     before: Mapping[Pair, Result] | None = None,
 ) -> dict[str, str]:
-    """Pictures of at most ``count`` pairs by caption; of those with a result ``before``, of the old map too.
+    """Return pictures of at most ``count`` pairs by caption, of the old map too where ``before`` has its result.
 
     A pair that cannot be drawn, since its map or meshes are gone or do not fit any more, is left out.
     """

@@ -32,7 +32,7 @@ class Plan:
     folder: Path  # the output folder
     spec: RunSpec
     tasks: tuple[PairTask, ...]  # every pair asked for, in order
-    todo: tuple[PairTask, ...]  # those without a result that counts
+    todo: tuple[PairTask, ...]  # those without a valid result
     results: tuple[Result, ...]  # of the others
     changed: int  # how many of ``todo`` have a result that no longer counts, because their files have changed
 
@@ -76,9 +76,9 @@ def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind
 
     ``output``: output folder of the run. ``kind``: "near": each shape with those that are most like it, about three
     pairs a shape, on cycles (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the one in the
-    middle with all others; "star:SHAPE": this one. "all": every pair, one way; "both": both ways. What the shapes
-    decide is kept in the output folder, so that it stays the same. A shape that cannot be prepared has one pair, with
-    the middle one, which fails. ``pool``: prepares the shapes.
+    middle with all others; "star:SHAPE": this one. "all": every pair, one way; "both": both ways. Pairs that depend on
+    the shapes are stored in the output folder, so that they stay the same. A shape that cannot be prepared gets one
+    pair, with the medoid, and that pair fails. ``pool``: prepares the shapes.
     """
     names = list(collection.shapes)
     if kind not in ("near", "star", "all", "both") and not kind.startswith("star:"):
@@ -118,7 +118,7 @@ def _signature(task: ShapeTask) -> np.ndarray:
 
 
 def _read_graph(path: Path, key: str) -> list[Pair] | None:
-    """The pairs that are kept, where they are of these shapes."""
+    """Return the stored pairs, if they are of these shapes."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         return [Pair(str(a), str(b)) for a, b in content["pairs"]] if content["shapes"] == key else None
@@ -157,7 +157,7 @@ class _Tasks:
 
 
 def _digest(path: Path) -> str:
-    """The digest of a file; of one that cannot be read why, which is told with its pairs."""
+    """Return the digest of a file, or of the reason why it cannot be read, which its pairs report."""
     try:
         return file_digest(path)
     except (OSError, InvalidInput) as error:

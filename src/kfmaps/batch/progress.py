@@ -1,4 +1,4 @@
-"""How a run stands: how long the rest will take, what it says on the terminal and in its log."""
+"""The state of a run: how long the rest will take, and reports on the terminal and in the log."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from kfmaps.cli.words import format_seconds, plural
 
 _LOG, _EVENTS = "run.log", "run.jsonl"
 _FIXED_VERTICES = 8000.0
-"""Vertices of a shape that take as long as what depends on no size. From docs/performance.md: 4.1 s of 5,000 vertices,
-8.7 of 20,000, 32 of 80,000."""
+"""Number of vertices that take as long as the work that depends on no size. From docs/performance.md: 4.1 s of
+5,000 vertices, 8.7 of 20,000, 32 of 80,000."""
 _LINE_SECONDS = 30.0  # seconds between lines where there is no terminal
 
 
 @dataclass(frozen=True)
 class RunStatus:
-    """How a run stands: shapes prepared, pairs done and failed, and the ``remaining`` seconds.
+    """State of a run: shapes prepared, pairs done and failed, and the ``remaining`` seconds.
 
     ``remaining`` is ``None`` while nothing has been measured; it rests on ``measured`` pairs.
     """
@@ -46,7 +46,7 @@ class RunStatus:
         return f"{shapes}pairs {self.pairs_done}/{self.pairs}{failed}, {self.time_left()}"
 
     def time_left(self) -> str:
-        """Return the remaining time, and what it rests on."""
+        """Return the remaining time, and how many pairs the estimate rests on."""
         if self.pairs_done == self.pairs:
             return "finished"
         if self.remaining is None:
@@ -56,7 +56,7 @@ class RunStatus:
 
 
 Callback = Callable[[RunStatus, Result | None], None]
-"""Called with how the run stands, and with the result that has just come, if one has."""
+"""Called with the state of the run and the newest result, if there is one."""
 
 
 Log = Callable[..., None]
@@ -81,7 +81,7 @@ class WorkLeft:
         return self.finished or self.before
 
     def end(self, number: int, seconds: float | None = None) -> None:
-        """Note that a pair has ended, and after how many seconds; one without is not measured."""
+        """Record that a pair has ended, after ``seconds`` where they are known."""
         size = self.sizes.pop(number)
         if seconds is not None:
             self.finished.append((size, seconds))
@@ -123,7 +123,7 @@ def log_to(folder: Path) -> Log:
 
 
 class RunReport:
-    """Reports of a run: bars on a terminal, now and then a line elsewhere, nothing where ``quiet``.
+    """Reports of a run: bars on a terminal, a line now and then elsewhere, nothing where ``quiet``.
 
     A context: while it lasts, :meth:`status` is a :data:`Callback` and :meth:`stage` a
     :data:`~kfmaps._progress.CountProgress`.
@@ -153,11 +153,11 @@ class RunReport:
             self._console.print(Text(line), soft_wrap=True)
 
     def stage(self, what: str, done: int, of: int) -> None:
-        """Tell how much of a stage is done."""
+        """Show how much of a stage is done."""
         self._tell(what, done, of, "", f"{what} {done}/{of}")
 
     def status(self, status: RunStatus, result: Result | None) -> None:
-        """Tell how the run stands, and the reason where the ``result`` that has just come is a failure."""
+        """Show the state of the run, and the reason where the newest ``result`` is a failure."""
         if result is not None and result.status == "failed":
             self.say(describe_result(result))
         failed = f"{status.failed} failed, " if status.failed else ""

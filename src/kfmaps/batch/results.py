@@ -23,7 +23,7 @@ BAD = 0.05
 
 @dataclass(frozen=True)
 class Result:
-    """What came of one pair. Errors are in units of √area of the source; ``None`` where the truth is unknown."""
+    """The result of one pair. Errors are in units of √area of the source; ``None`` where the truth is unknown."""
 
     source: str
     target: str
@@ -51,7 +51,7 @@ class Result:
     common_s: float | None = None  # part of the source's area that both have, where one is a part of the other
     common_t: float | None = None
     changed: str = ""  # what replaces a map that others contradict: "alternative 1", "composition through A, B"
-    why: str = ""  # for what reason
+    why: str = ""  # reason of the replacement
     error_before: float | None = None  # mean error of the map that was replaced
     solver: str = ""
     solver_steps: int | None = None
@@ -155,7 +155,7 @@ def summarize(results: Sequence[Result]) -> JsonObject:
         "seconds_total": known(seconds, np.sum),
         "verdicts": dict(sorted(Counter(r.verdict for r in done).items())),
         "mirrored": len(mirrored),  # pairs whose mirrored truth is known
-        "agreed": sum(r.agreement is not None for r in done),  # set beside the others of the collection
+        "agreed": sum(r.agreement is not None for r in done),  # compared with the others of the collection
         "changed": sum(bool(r.changed) for r in done),  # those of them whose map was replaced
         "parts": sum(r.common_s is not None for r in done),  # one shape was taken for a part of the other
     }
@@ -164,7 +164,7 @@ def summarize(results: Sequence[Result]) -> JsonObject:
 def worst_first(results: Sequence[Result]) -> list[Result]:
     """Return the results that are done, the largest mean error first; where no truth is known, the least sure first.
 
-    With landmarks there was no search to be sure of, and the mean local fit decides.
+    Without a search there is no confidence, and the mean local fit decides.
     """
     done = [r for r in results if r.status == "done"]
 

@@ -1,4 +1,4 @@
-"""Run a plan: prepare its shapes, match its pairs, and write what came of it."""
+"""Run a plan: prepare its shapes, match its pairs, and write tables and a summary."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from kfmaps.batch.work import (
 from kfmaps.io import remove_unfinished
 
 _A_DAY = 86400.0
-_BYTES = 40.0  # of a mesh's file for each vertex and its faces, about
+_BYTES = 40.0  # of a mesh file per vertex, about
 _LOGGED = ("source", "target", "status", "reason", "verdict", "confidence", "error_mean", "attempts", "worker")
 """Fields of a result that the log has."""
 TABLE = "results.csv"
@@ -43,12 +43,12 @@ TABLE = "results.csv"
 
 @dataclass(frozen=True)
 class BatchResult:
-    """What came of a run."""
+    """The result of a run."""
 
     results: tuple[Result, ...]  # of every pair that was asked for and has one, by source and target
     interrupted: bool  # whether the user or a signal stopped it; the same call goes on
     files: tuple[Path, ...]  # tables and summary
-    consistent: ConsistentResult | None = None  # what came of making the maps agree, where that was asked for
+    consistent: ConsistentResult | None = None  # where maps were to agree
 
 
 def run_batch(
@@ -92,7 +92,7 @@ def run_batch(
             log("stopped", f"stopped: {reason}", reason=reason)
             raise
         finally:
-            pool.close()  # what they are still at is not to end behind the back of the tables
+            pool.close()  # else work under way could change results after the tables are written
         better = {} if agreed is None else {r.pair: r for r in agreed.results}
         everything = [better.get(r.pair, r) for r in all_results(plan.folder, plan.spec.digest)]
         pool.progress("summary", 0, 1)
@@ -199,7 +199,7 @@ def _check_workers(plan: Plan, pool: WorkerPool) -> None:
 
 
 def _seen(path: str) -> tuple[str, str]:
-    """Run on a worker: its version, and the digest in the specification at ``path``."""
+    """Return a worker's version of kfmaps, and the digest that it reads in the specification at ``path``."""
     try:
         return kfmaps.__version__, json.loads(Path(path).read_text(encoding="utf-8"))["digest"]
     except (OSError, ValueError, KeyError):
@@ -208,9 +208,9 @@ def _seen(path: str) -> tuple[str, str]:
 
 @contextmanager
 def _tidied(plan: Plan) -> Iterator[None]:
-    """Before and after the block, remove what workers that were killed have left half written.
+    """Remove the half-written files of killed workers before and after the block.
 
-    In a cache that is a link to another folder, which other runs may be writing to, only what is older than a day.
+    In a cache that is a link to another folder, where other runs may be writing, only those older than a day go.
     """
     beside = plan.folder / CONSISTENT
     parts = (top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS))
@@ -231,7 +231,7 @@ def _tidied(plan: Plan) -> Iterator[None]:
 
 @contextmanager
 def _locked(folder: Path) -> Iterator[None]:
-    """Hold the output folder for this run; the system lets go of it however the run ends."""
+    """Lock the output folder for this run; the system releases the lock however the run ends."""
     try:
         import fcntl
     except ImportError:  # Windows: two runs at once do some pairs twice, and record each once

@@ -67,7 +67,7 @@ def _flatten(values: object, name: str = "") -> dict[str, object]:
 
 
 def claim(folder: Path, spec: RunSpec) -> None:
-    """Make ``folder`` the place of results with this ``spec``, or find that it already is."""
+    """Write ``spec`` into ``folder``, or check that the folder has the same one already."""
     path = folder / FILE
     now = spec.as_dict()
     if not path.exists():

@@ -49,7 +49,7 @@ MAX_SPREAD = 0.015
 """Distance of a template's proposal from the median, in √area, above which a landmark is flagged. Chosen on the choice
 half of `benchmarks/skulls.py`, where it flags 2 % of the landmarks."""
 CORRECTED, CHECKED = REVIEWED = ("corrected", "checked")
-"""What stands in place of a flag once somebody has moved a landmark, or found that it is right."""
+"""Flags of landmarks that somebody has moved, or has found right."""
 GOOD = ("sure", "likely", "landmarks", "unchecked")
 """Verdicts of maps that carry landmarks."""
 
@@ -90,20 +90,20 @@ class SpecimenLandmarks:
 
     @property
     def landmarks(self) -> LandmarkSet:
-        """The landmarks as files hold them."""
+        """The landmarks in the form that files hold."""
         return LandmarkSet(self.points.names, self.points.points, self.specimen, self.space, notes=self.open_flags)
 
     @property
     def open_flags(self) -> tuple[str, ...]:
-        """Flags without those that somebody has dealt with."""
+        """The flags that nobody has dealt with; empty for the others."""
         return tuple("" if flag in REVIEWED else flag for flag in self.flags)
 
 
 def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
     """Read the landmarks of specimens that are among the scans; a file of several specimens holds as many templates.
 
-    A file belongs to the scan whose name it has, or begins with; several of one scan are joined, such as landmarks and
-    a file for each curve, which is then called as the file is.
+    A file belongs to the scan whose name its own name is or begins with. Several files of one scan are joined, such as
+    landmarks and a file for each curve; a curve is then named after its file.
     """
     found: dict[str, Template] = {}
     positions: dict[str, dict[str, np.ndarray]] = {}
@@ -149,7 +149,7 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
 
 
 def _name_curve(given: LandmarkSet, stem: str, specimen: str) -> LandmarkSet:
-    """Landmarks whose only curve has the rest of the file's name for its own, where the file has nothing else."""
+    """Name the only curve of a file after the rest of the file's name, where the file has nothing else."""
     rest = stem.removeprefix(specimen).strip("._- ")
     if not rest or fixed_rows(given.names) or len(find_curves(given.names)) > 1:
         return given
@@ -236,7 +236,7 @@ def _slide(points: np.ndarray, templates: Sequence[Template]) -> np.ndarray:
 
 
 def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
-    """Say why a specimen with this best map fits none of the others; nothing where it does."""
+    """Return why a specimen does not fit the others, by its best map and its landmarks; empty where it does."""
     if best.verdict not in GOOD:
         return f"its best map is {best.verdict} ({100 * (best.confidence or 0.0):.0f} %, from {best.source})"
     if is_mirror_image(points.points, template.points.points):
@@ -300,7 +300,7 @@ def given_landmarks(template: Template) -> SpecimenLandmarks:
 
 
 def template_errors(templates: Sequence[Template], results: Mapping[Pair, Result], folder: Path) -> np.ndarray:
-    """Return how far each template's landmarks come to lie from those of each other one.
+    """Return how far each template's landmarks, carried to each other template, lie from those given there.
 
     (pairs, l); NaN for none, and for points of curves, which may lie anywhere along them.
     """
@@ -330,7 +330,7 @@ def _flag(confidence: float, spread: float, there: bool) -> str:
 
 
 def _rival_distance(known: Match, template: Template, mesh: Mesh, carried: NamedPoints) -> np.ndarray:
-    """How far from its place the alternatives of a map put each landmark at least; NaN without alternatives."""
+    """Return the least distance at which an alternative map puts each landmark; NaN without alternatives."""
     distances = np.full(len(carried.names), np.nan)
     for other in known.alternatives:
         if (other >= 0).all():

@@ -1,4 +1,4 @@
-"""The units of work, each safe to be begun again at any moment: prepare a shape, match a pair."""
+"""The units of work: prepare a shape, match a pair. Each can be interrupted and begun again at any moment."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too lit
 
 @dataclass(frozen=True)
 class ShapeTask:
-    """One shape to prepare: small, and the same on every machine."""
+    """One shape to prepare: a small record, the same on every machine."""
 
     name: str
     path: Path  # of the mesh
@@ -65,7 +65,7 @@ class ShapeTask:
 
 @dataclass(frozen=True)
 class Prepared:
-    """What came of a :class:`ShapeTask`: why it failed, and warnings about the mesh."""
+    """Result of a :class:`ShapeTask`: why it failed, and warnings about the mesh."""
 
     name: str
     reason: str = ""
@@ -125,7 +125,7 @@ def attempts(folder: Path, key: str) -> int:
 
 
 def prepare_shape(task: ShapeTask) -> Prepared:
-    """Prepare a shape unless the cache has it. A shape that cannot be prepared is told of, not raised."""
+    """Prepare a shape unless the cache has it. A failure is returned, not raised."""
     if load_record(task.entry, Shape) is not None:
         return Prepared(task.name)
     begin(task.folder, task.key)
@@ -158,7 +158,7 @@ def match_pair(job: tuple[PairTask, Prepared, Prepared]) -> Result:
 def record_pair(
     task: PairTask, inputs: str, folder: Path, path: Path, make: Callable[[], dict[str, Any]], **values: Any
 ) -> Result:
-    """Return the result of a pair in ``folder``, unless there is one made from ``inputs`` that of ``make``.
+    """Return the result of a pair: that in ``folder`` if it was made from ``inputs``, else that of ``make``, saved.
 
     ``path``: the map that ``make`` saves; ``values``: further fields of the result.
     """
@@ -195,7 +195,7 @@ def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Res
 
 
 def _attempt(work: Callable[[], dict[str, Any]]) -> tuple[dict[str, Any], str, tuple[str, ...]]:
-    """Return what ``work`` returns, why it failed, and what was warned of; one bad pair must not end the run."""
+    """Return the value of ``work``, why it failed, and its warnings: one bad pair must not end the run."""
     done, reason = {}, ""
     with warnings.catch_warnings(record=True) as told, one_blas_thread():
         warnings.simplefilter("always", KfmapsWarning)
@@ -207,7 +207,7 @@ def _attempt(work: Callable[[], dict[str, Any]]) -> tuple[dict[str, Any], str, t
 
 
 def error_text(error: Exception) -> str:
-    """Return what went wrong with a shape or pair, in one line; of what nobody expects with the type of the error."""
+    """Return what went wrong, in one line; of an unexpected error with its type."""
     if type(error).__name__ == "KilledWorker":
         return _DIED
     text = str(error) if isinstance(error, _EXPECTED) else f"{type(error).__name__}: {error}"
@@ -233,7 +233,7 @@ def pair_shapes(task: PairTask) -> tuple[Shape, Shape]:
 
 
 def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamples, ShapeSamples]:
-    """Return what a search needs to know of both shapes, from the cache."""
+    """Return the samples of both shapes for a search, from the cache."""
     entries, seed = (task.source.entry, task.target.entry), task.spec.seed
     return cached_samples(shapes[0], entries[0], seed), cached_samples(shapes[1], entries[1], seed)
 
@@ -275,7 +275,7 @@ def save_pair_map(task: PairTask, found: Match, shapes: tuple[Shape, Shape], pat
 
 
 def _common(found: Match, meshes: tuple[Mesh, Mesh]) -> dict[str, float]:
-    """How much of either shape's area both have; nothing of whole shapes."""
+    """Return the share of each shape's area that both have; empty for whole shapes."""
     overlaps = {"common_s": found.partial.overlap_source, "common_t": found.partial.overlap_target}
     return {
         name: float(np.average(overlap, weights=vertex_areas(mesh)))
@@ -285,7 +285,7 @@ def _common(found: Match, meshes: tuple[Mesh, Mesh]) -> dict[str, float]:
 
 
 def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
-    """The fields of a result that tell of errors; none where the truth is not known."""
+    """Return the error fields of a result; none where the truth is not known."""
     if accuracy is None:
         return {}
     direct = accuracy.errors

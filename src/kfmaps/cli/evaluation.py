@@ -1,4 +1,4 @@
-"""Maps set beside the truth, for the commands: which pairs of vertices correspond, and how far off a map is."""
+"""Read the truth of a pair from files, and compare a map with it."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from kfmaps.matching.partial.registration import overlap_probability
 from kfmaps.matching.result import Match
 
 THRESHOLDS = np.linspace(0.0, 0.25, 251)
-"""Of a curve, in units of √area: as far as the area under the curve is taken."""
+"""Errors at which a curve is evaluated, in √area, up to the limit of the area under the curve."""
 
 _NEIGHBOURS = 1.5
-"""Mean edges of the whole from a listed vertex within which others count as common too, where the truth is a list."""
+"""Distance from a listed vertex, in mean edges of the whole, up to which others count as common too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ def known_truth(
     symmetric: str | Path | None = None,
     identity: bool = False,
 ) -> Truth | None:
-    """Return the truth that options or a collection's files name; ``None`` when they name none.
+    """Return the truth that the options or files give; ``None`` when they give none.
 
     ``files``: lists of vertices of source and target, line k of one corresponding to line k of the other; ``n_s`` and
     ``n_t``: vertices of the shapes; ``symmetric``: the same for the target with left and right swapped; ``identity``:
@@ -143,8 +143,8 @@ def assess(
 
     ``target_to_source (n_t,)``: −1 where a vertex has no counterpart; ``place``: points inside triangles, whose errors
     are measured too; ``target``: where it is given, and both are surfaces, the map's smoothness is measured too.
-    ``mirrored``: points of the mirrored truth at most, evenly through the list. They are far from their images, and
-    distances to them take most of the time.
+    ``mirrored``: points of the mirrored truth at most, evenly through the list. Their images are far away, and such
+    distances take most of the time.
     """
     target_to_source = check_map(target_to_source, len(source.vertices), lost=True)
     check_truth(truth, len(source.vertices), len(target_to_source))
@@ -216,9 +216,9 @@ def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
 def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: str) -> Accuracy:
     """Compare a map with the truth of its ``part``, "source" or "target".
 
-    Of a target that is a part the errors are distances on the source between where its vertices go and belong; of a
-    source that is a part, distances on the target between its vertices and where what is mapped to them belongs, and
-    ``matched`` is a share of the true common area.
+    Where the target is the part, errors are distances on the source between the image of each vertex and its true
+    place. Where the source is the part, they are distances on the target between each vertex and the true place of its
+    image, and ``matched`` is a share of the true common area.
     """
     points = found.target_to_source
     place = precise_points(found, source) or vertex_point_map(np.maximum(points, 0), source)
@@ -250,10 +250,10 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
 def _carried_on(
     source: Mesh, target: Mesh, points: np.ndarray, place: PointMap, truth: PartTruth
 ) -> tuple[np.ndarray, PointMap, PointMap]:
-    """Which target vertices can be compared, they, and where what is mapped to them belongs."""
+    """Return which points can be compared, the target vertices, and the true places of what is mapped to them."""
     there = np.full((len(source.vertices), 3), np.nan)
     there[truth.vertices] = point_positions(truth.places, target)
-    # A corner without weight has no say, nor has what nobody knows of it.
+    # A corner of weight zero does not count, even where its place is not known.
     corners = np.where(place.weights[:, :, None] > 0, there[source.faces[place.faces]], 0.0)
     ends = np.einsum("ti,tij->tj", place.weights, corners)
     told = np.isfinite(ends).all(axis=1)

@@ -1,4 +1,4 @@
-"""The command ``kfmaps``: gathers what is in ``kfmaps.cli.commands`` and says what went wrong in one line.
+"""The command ``kfmaps``: runs a module of ``kfmaps.cli.commands`` and reports errors in one line.
 
 Only the command that is asked for is imported, so that ``kfmaps --help`` is quick.
 """
@@ -43,21 +43,21 @@ _USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__
 """What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
-"""What the system says when a stream takes no more."""
+"""Error numbers of a stream that takes no more."""
 
 _FAILURE, _INTERRUPTED, UNREAD = 2, 130, 1
 """Exit statuses: bad input, Ctrl-C, output that nobody reads."""
 
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
-"""Of glibc's ``mallopt``: sizes from which freed memory is given back, and arrays have pages of their own."""
+"""Parameters of glibc's ``mallopt``: sizes above which freed memory is returned, and arrays get pages of their own."""
 
 
 def _keep_freed_memory() -> None:
     """Let the allocator of Linux keep what is freed for what is asked for next.
 
-    It would give large arrays back at once and have the next anew, page by page: a twelfth of the time of a match of
-    skulls, which needs no more memory so. Other systems' allocators are left alone.
+    By default large arrays are returned at once and the next are allocated page by page: a twelfth of the time of a
+    match of skulls. The peak of memory stays the same. Other systems' allocators are left alone.
     """
     try:
         mallopt = ctypes.CDLL(None).mallopt
@@ -68,7 +68,7 @@ def _keep_freed_memory() -> None:
 
 
 def application(only: str | None = None) -> typer.Typer:
-    """Return the whole command; with ``only`` the others are there in name, for the list that ``--help`` shows."""
+    """Return the whole command; with ``only`` the other commands have a name and help, and no code."""
     app = typer.Typer(
         name="kfmaps",
         add_completion=True,
@@ -104,7 +104,7 @@ def _general(
 
 
 def _named(name: str) -> Callable[[], None]:
-    """Something that has the help of a command and not its code."""
+    """Return a stand-in with the help of a command and not its code."""
 
     def command() -> None:
         raise AssertionError(f"{name} was not loaded")
@@ -120,7 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's; what matters is checked and told in our words
+        warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's; what matters is checked by kfmaps itself
         warnings.simplefilter("default", KfmapsWarning)
         warnings.showwarning = _teller(warnings.showwarning)
         try:
@@ -146,9 +146,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _open_streams() -> None:
-    """Open the standard streams that whoever started this has closed, on nothing.
+    """Open standard streams that the caller has closed, on the null device.
 
-    Else the next file that is opened would take the number of one of them, and be written to by mistake.
+    Else the next file that is opened would get the number of one of them, and be written to by mistake.
     """
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
@@ -163,13 +163,13 @@ def _open_streams() -> None:
 
 
 def _unwritable(error: OSError) -> int:
-    """Say that what was printed could not be written; files say their names themselves."""
+    """Report that the output could not be written; errors of files name the file."""
     _let_go_of_output()
     return _failed(f"standard output: {error.strerror or error}; check the space left where it goes")
 
 
 def _let_go_of_output() -> None:
-    """Send what is still buffered to nowhere: it would raise again when Python flushes at its end."""
+    """Redirect the buffered output to the null device: it would raise again when Python flushes at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
@@ -187,7 +187,7 @@ def _run(words: Sequence[str]) -> int:
         context = getattr(error, "ctx", None)
         message = _other_option(error, context) or error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
         path = getattr(context, "command_path", "kfmaps")
-        # Without a message it was a group without a command, and the help has been printed.
+        # Without a message it is a group without a command, whose help has been printed.
         return _failed(f"{message.rstrip('.')}; see {path} --help") if message else _FAILURE
     except typer.Abort:
         return _INTERRUPTED
@@ -209,7 +209,7 @@ def _other_option(error: Exception, context: Any) -> str:
 
 
 def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:
-    """A ``warnings.showwarning`` that tells the package's own warnings in one line each, and none twice."""
+    """Return a ``warnings.showwarning`` that prints the package's own warnings in one line each, and none twice."""
     told: set[str] = set()
 
     def tell(message: object, category: type[Warning], *where: object, **more: object) -> None:
@@ -228,7 +228,7 @@ def _failed(text: str) -> int:
 
 
 def _say(text: str) -> None:
-    """One line on standard error, whatever the text holds; where nobody reads it any more, none."""
+    """Print one line on standard error, if the stream is still open."""
     with contextlib.suppress(OSError):
         print("kfmaps:", shown(" ".join(text.split())), file=sys.stderr)
 

@@ -1,4 +1,4 @@
-"""What a long computation is doing: bars on a terminal and in a notebook, now and then a line elsewhere."""
+"""Progress of a long computation: bars on a terminal and in a notebook, a line now and then elsewhere."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import format_seconds
 
 _SECONDS_BETWEEN_LINES = 5.0
-"""A stage that is begun again and again, as when many maps are tried, is told at most this often."""
-_SECONDS_OF_SILENCE = 15.0  # where there is no terminal, a stage that goes on for longer is told of this often
-_SECONDS_BETWEEN_PICTURES = 0.2  # a notebook's bars are drawn anew no more often
+"""Least seconds between two lines of a stage that is repeated, as when many maps are tried."""
+_SECONDS_OF_SILENCE = 15.0  # seconds between lines of a long stage without a terminal
+_SECONDS_BETWEEN_PICTURES = 0.2  # least seconds between two drawings in a notebook
 
 
 def _time_left(done: float, elapsed: float, before: float | None = None) -> str:
-    """What a stage will still take, by how much of it is done, else by what such a stage took ``before``."""
+    """Return the time left, from the part that is done, else from the seconds of such a stage ``before``."""
     left = elapsed * (1 - done) / done if done >= 0.02 else (before or 0.0) - elapsed
     return f", about {format_seconds(left)} left" if left > 0 else ""
 
 
 def standing(name: str, done: float, elapsed: float, before: float | None = None) -> str:
-    """Return how a stage stands, in one line."""
+    """Return the state of a stage in one line."""
     part = f"{100 * done:.0f} % done, " if done > 0 else ""
     return f"{name}: {part}{format_seconds(elapsed)} so far{_time_left(done, elapsed, before)}"
 
@@ -55,10 +55,10 @@ class _Bars:
 
 
 class Lines:
-    """A line when a stage ends, and now and then one while it goes on.
+    """A line when a stage ends, and one now and then while it goes on.
 
-    A thread tells of a stage that says nothing of itself; a stage "... of target" is taken to last as long as
-    "... of source" did.
+    A thread reports stages that do not report themselves. A stage "... of target" is expected to last as long as "...
+    of source" did.
     """
 
     def __init__(self, silence: float = _SECONDS_OF_SILENCE) -> None:
@@ -107,12 +107,12 @@ class Lines:
 
 
 def _kind(name: str) -> str:
-    """A stage without the shape that it belongs to."""
+    """Return the name of a stage without the shape that it belongs to."""
     return name.rpartition(" of ")[0] or name
 
 
 class _Notebook:
-    """Bars in a notebook's cell: plain HTML, so that nothing beside IPython is needed."""
+    """Bars in a notebook's cell: plain HTML, which needs nothing but IPython."""
 
     def __init__(self) -> None:
         from IPython.display import HTML, display  # pyright: ignore[reportMissingImports]

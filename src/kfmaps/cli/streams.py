@@ -1,4 +1,4 @@
-"""``-`` among the words of a command: standard input where it reads a file, standard output where it writes one."""
+"""``-`` as an argument: standard input in place of a file to read, standard output in place of one to write."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from kfmaps._errors import refuse
 _STREAM = re.compile(r"-(\.[a-z][a-z.]*)?")
 _OUTPUTS = ("-o", "--output", "--curve")
 _FORMATS = {"match": ".txt", "transfer": ".csv", "export": ".ply", "view": ".html", "config": ".toml", "render": ".png"}
-"""What a command writes to ``-``; ``-.npz`` and the like say another format. Other commands write folders."""
+"""Format that a command writes to ``-``; ``-.npz`` asks for another one. Other commands write folders."""
 _SIGNS = (
     (rb"ply\s", ".ply"),
     (rb"(ST)?C?N?4?n?OFF\b", ".off"),
@@ -40,11 +40,11 @@ def content_suffix(data: bytes) -> str:
 
 @contextmanager
 def standard_streams(words: Sequence[str], command: str) -> Iterator[list[str]]:
-    """Put files in the place of ``-`` among the words of a command.
+    """Replace ``-`` among the arguments of a command by temporary files.
 
-    What is read comes from standard input. What is written goes to standard output when the block ends, and what the
-    command prints meanwhile to standard error. The name of the ``command`` decides the format that is written. Two
-    ``-`` of a kind are refused, and one where a command writes a folder.
+    A file to read is filled from standard input. A written file goes to standard output when the block ends; what the
+    command prints goes to standard error. The name of the ``command`` decides the format. Two ``-`` of a kind are
+    refused, and one where a command writes a folder.
     """
     places = [i for i, word in enumerate(words) if _STREAM.fullmatch(word)]
     writes = [i for i in places if i and words[i - 1] in _OUTPUTS]

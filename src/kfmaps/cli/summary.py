@@ -21,9 +21,9 @@ from kfmaps.matching.result_groups import ONE_FIT
 from kfmaps.matching.score import SCORE
 
 _STYLES = {"likely": "bold yellow", "ambiguous": "bold red", "unlikely": "bold red"}
-"""Verdicts that a terminal must not bury in a table."""
+"""Styles of verdicts that must not be overlooked in a table."""
 
-_SHAPES = " --source {} --target {}"  # what ``kfmaps view`` needs for a file that does not name its shapes
+_SHAPES = " --source {} --target {}"  # added for formats that do not name their shapes
 
 
 def table(match: Match, accuracy: Accuracy | None = None, written: Path | None = None) -> Table:
@@ -86,7 +86,7 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
 
 
 def _doubtful_area(match: Match) -> float:
-    """Return the share of the target's area that fits badly, of a map of whole shapes that is called right; else 0."""
+    """Return the share of the target's area with a low local fit, where whole shapes have a good verdict; else 0."""
     if len(match.target.faces) == 0 or match.verdict not in ("sure", "likely") or match.partial.which != "none":
         return 0.0
     return low_confidence_area(match.target, match.local_confidence)

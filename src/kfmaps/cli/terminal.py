@@ -1,4 +1,4 @@
-"""What is printed for people: whatever a name holds, no control character reaches the terminal."""
+"""Print for people: no control character in a name reaches the terminal."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class _Shown(RenderHook):
 
 
 class _Plain:
-    """Something to draw, its letters all printable."""
+    """A renderable whose letters are all printable."""
 
     def __init__(self, inside: ConsoleRenderable) -> None:
         self.inside = inside

@@ -1,4 +1,4 @@
-"""How numbers are told to people, everywhere alike."""
+"""Numbers and verdicts in words, the same everywhere."""
 
 from __future__ import annotations
 

@@ -110,7 +110,7 @@ def parse_workers(text: str | None) -> int | str | None:
 
 
 def describe_plan(plan: Plan) -> str:
-    """Return what there is to do."""
+    """Return how much there is to do, in words."""
     count = len(plan.tasks)
     shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
     parts = [f"{plural(count, 'pair')} of {shapes} shapes"]
@@ -120,7 +120,7 @@ def describe_plan(plan: Plan) -> str:
 
 
 def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
-    """What came of it."""
+    """The result of a run in lines of text."""
     numbers = summarize(outcome.results)
     lines = []
     if outcome.interrupted:
@@ -139,7 +139,7 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
 
 
 def _describe_consistent(found: ConsistentResult) -> list[str]:
-    """Which maps were replaced, by what and why."""
+    """Lines of text: which maps were replaced, by what and why."""
     lines = ["no map replaced" if found.doubted else "all maps agree: none replaced"]
     if found.before:
         lines = [f"{plural(len(found.before), 'map')} replaced that others contradict"]

@@ -1,4 +1,4 @@
-"""``kfmaps demo``: shapes made by code, matched, and set beside the truth."""
+"""``kfmaps demo``: match generated shapes and compare the maps with the truth."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ def evaluate(
 
 
 def _target(given: Path | None, found: Match, map: Path) -> Mesh | None:
-    """The target, as given or as the map names it; ``None`` where it does not, or the file is gone or another."""
+    """Return the target as given or as the map names it; ``None`` where there is no such file or it has changed."""
     if given is not None:
         return map_mesh(given, found, "target", map)
     try:
@@ -88,7 +88,7 @@ def _target(given: Path | None, found: Match, map: Path) -> Mesh | None:
 
 
 def _table(accuracy: Accuracy) -> Table:
-    """Errors, beside those of points inside triangles and against the mirrored truth where they are known; shares."""
+    """Return a column of errors for each kind that is known, and the shares of area below."""
     precise, mirrored, smooth = accuracy.precise, accuracy.mirrored, accuracy.smoothness
     of_part = accuracy.missing is not None
     sides = {"" if of_part else "error" if precise is None else "vertices": accuracy.errors}

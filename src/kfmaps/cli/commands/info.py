@@ -59,7 +59,7 @@ def description(path: str | Path, content: MeshFile) -> JsonObject:
 
 
 def _cells(facts: JsonObject) -> dict[str, str]:
-    """What the table says of a file, by the name of the row or column."""
+    """Return the cells of the table for a file, by the name of the row or column."""
     counts = facts["topology"]
     extra = [k.replace("_", " ") for k in ("colors", "texture_coordinates") if facts[k]]
     cells = {
@@ -87,7 +87,7 @@ def info(
     refused, known = [], []
     for path in meshes:
         try:
-            with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the table says it all
+            with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the table shows the same
                 known.append(description(path, read_mesh_file(path)))
         except InvalidInput as error:
             refused.append(str(error))
@@ -96,7 +96,7 @@ def info(
             print_json(facts)
     elif known:
         Terminal().print(_table(known[0]) if len(meshes) == 1 else _overview(known))
-    if refused:  # the others have been shown
+    if refused:  # after the others were printed
         more = "" if len(refused) == 1 else f"; and {len(refused) - 1} more of the files cannot be read"
         raise InvalidInput(refused[0] + more)
 

@@ -106,9 +106,9 @@ def pick(
     output = output or (begun[0] if len(begun) == 1 else Path("landmarks.txt"))
     check_format(map_output)
     for path in (output, map_output):
-        # The page asks before it replaces a file, that of the landmarks it began with too; the shapes it never does.
+        # The page asks before it replaces a file, the given landmarks too; it never replaces the shapes.
         check_output(path, True, (source, target) if path is output else (source, target, *begun, output))
-    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # kfmaps match says it, once
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # kfmaps match shows them
         shapes = read_mesh(source), read_mesh(target)
     known, labels = np.zeros((0, 2), dtype=np.int64), []
     if begun:
@@ -180,7 +180,7 @@ def transfer(
     results = {r.pair: r for r in outcome.results}
     own = {one.specimen: given_landmarks(one) for one in templates}
     study = []
-    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the results say what is odd
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the results have them
         for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
             maps = {pair.source: result for pair, result in results.items() if pair.target == name}
             one = own.get(name) or carry_templates(templates, name, collection.shapes[name], maps, plan.folder)
@@ -220,12 +220,12 @@ def review(
     Tables and statistics are written anew at each save. The same landmarks transfer as before keeps the corrections,
     and fits the maps of corrected specimens to them.
     """
-    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the study has said it
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # kfmaps landmarks transfer has shown them
         _serve(ReviewServer(study, port, up), {"output": [study]}, browser, json)
 
 
 def _serve(serving: PickerServer | ReviewServer, told: dict[str, object], browser: bool, json: bool) -> None:
-    """Say where the page is, open it, and answer until the user interrupts."""
+    """Print the address of the page, open it, and serve it until the user interrupts."""
     if json:
         print_json({"address": serving.server.address, **told})
     else:
@@ -248,7 +248,7 @@ def _serve(serving: PickerServer | ReviewServer, told: dict[str, object], browse
 
 
 def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
-    """What came of a study, in a few lines."""
+    """Describe the result of a study in a few lines."""
     carried = [one for one in study if one.verdict and not one.misfit]
     names = templates[0].points.names
     told = f"{len(names)} landmarks of {plural(len(templates), 'specimen')} carried to {plural(len(carried), 'other')}"

@@ -45,7 +45,7 @@ _START = replace(
     weights=Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0),
     formulation=Formulation(mask="resolvent"),
 )
-"""The settings that learning starts from. SHOT tells what the signature cannot, and few strong descriptors want less
+"""The settings that learning starts from. SHOT adds what the signature lacks. Few strong descriptors need less
 commutativity and a sharper kernel."""
 
 
@@ -90,7 +90,7 @@ def learn(
     """
     numbers = _numbers(training or [])
     check_suffix(output, (".toml", ".pt"), "output")
-    from kfmaps import learn as library  # its absence of PyTorch comes before any work
+    from kfmaps import learn as library  # fails without PyTorch, before any work
 
     state_file = output.with_suffix(".pt")
     stopped = state_file.is_file() and not force
@@ -112,7 +112,7 @@ def learn(
         model = library.Model(config, pairs, chosen)
         own = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs")}
         options = library.TrainingOptions(**own)  # pyright: ignore
-        # What must be asked for again to continue: everything but when to stop.
+        # A run is continued by the same request; only its end may differ.
         request = {
             "--learn": chosen,
             "pairs": [pair.name for pair in every],

@@ -118,7 +118,7 @@ def match(
 
 
 def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
-    """Say "source" and "target" where a stage would name a file, whose path may be long."""
+    """Put "source" and "target" into the names of stages in place of files, whose paths may be long."""
     short = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(_SIDES), strict=True)}
 
     def told(stage: str, done: float) -> None:
@@ -129,7 +129,7 @@ def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Ca
 
 
 def _check_device(device: str) -> None:
-    """Raise when no array can be made on ``device``, before minutes are spent on what leads up to it."""
+    """Raise when no array can be made on ``device``, before minutes of other work."""
     if device == "cpu":
         return
     try:

@@ -69,7 +69,7 @@ def _carried(
     products: int | None,
     lost: float | None,
 ) -> Values:
-    """The values of a file on the other shape."""
+    """Return the values of a file, carried to the other shape."""
     read = read_values(values)
     gone = int(lost) if lost is not None and read.array.dtype.kind in "iu" and lost == int(lost) else lost
     if back:
@@ -86,7 +86,7 @@ def _carried(
 
 
 def _counterparts(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> Counterparts:
-    """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
+    """Return which vertices of both shapes have counterparts; point clouds are refused."""
     source, target = (map_mesh(path, found, side, map) for side, path in zip(_SIDES, given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
