@@ -5,7 +5,7 @@ import sys
 
 
 def main() -> int:
-    """Run the command; its exit status. Ctrl-C ends it without a word whenever it comes."""
+    """Run the command and return its exit status; Ctrl-C ends it at any time without a message."""
     # While Python imports, which takes half a second, and while it ends, nothing can catch the interrupt: the system
     # ends the process then. A parent that has the signal ignored keeps it so.
     ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -360,7 +360,7 @@ def _check_config(config: object) -> None:
 
 
 def _telling(progress: bool | Progress | None) -> AbstractContextManager[Progress | None]:
-    """What the stages are told to while the context lasts."""
+    """Where the stages report their progress: a bar for True, as long as the context lasts."""
     if progress is True:
         return Stages()
     return nullcontext(progress or None)

@@ -210,7 +210,7 @@ def components(matrices: np.ndarray, count: int | None = None) -> Components:
 def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:
     """Return how large each shape is at each vertex of one of them, relative to the mean: (n, vertices).
 
-    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With operators of the
+    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex's delta function. With operators of the
     kind "area" it is the density of area, at the resolution of the latent functions; its standard deviation over
     the shapes tells where they differ.
 

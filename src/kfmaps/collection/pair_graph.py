@@ -23,10 +23,10 @@ Pairs = tuple[tuple[int, int], ...]
 
 
 def signature(basis: Basis) -> np.ndarray:
-    """Return numbers that similar shapes have alike: logarithms of eigenvalues, and quantiles of the heat kernel.
+    """Return numbers that are close for similar shapes: logarithms of eigenvalues, and quantiles of the heat kernel.
 
     They are free of units where ``basis`` is that of unit area, nearly free of pose, and free of the triangulation.
-    Mirror images have the same. Differences are of the order of 0.1 to 1.
+    Mirror images have equal ones. Differences are of the order of 0.1 to 1.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def signature_graph(kind: str, signatures: np.ndarray) -> Pairs:
 
 
 def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], np.ndarray] | None:
-    """A pair without which the graph falls apart, where another could join its sides, and one side (n,) bool."""
+    """A bridge, ``None`` without one, and which shapes lie on one side of it, (n,) bool."""
     pair = min(bridges(count, pairs), default=None) if count > 2 else None
     if pair is None:
         return None
@@ -132,9 +132,9 @@ def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], n
 
 
 def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
-    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one the graph has a part more.
+    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one the graph falls apart.
 
-    A pair that is there twice is on a cycle of two.
+    A pair that is given twice is on a cycle of two.
     """
     ends = np.array(list(pairs), dtype=np.int64).reshape(-1, 2)
     parts = component_labels(count, *ends.T)[0]

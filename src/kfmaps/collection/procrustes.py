@@ -28,7 +28,7 @@ class Procrustes:
 def generalized_procrustes(points: np.ndarray) -> Procrustes:
     """Return the generalised Procrustes analysis of landmarks (Gower 1975; Rohlf and Slice 1990), without reflections.
 
-    ``points (s, l, 3)``: NaN for a missing landmark, which is put where the consensus has it and has no say in the
+    ``points (s, l, 3)``: NaN for a missing landmark, which takes its place in the consensus and does not count in the
     alignment.
     """
     check(points, "landmarks", shape=(None, None, 3), finite=False)

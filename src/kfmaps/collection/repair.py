@@ -275,8 +275,8 @@ def chirality(
 ) -> np.ndarray:
     """Return 1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
 
-    As much of the ``weights`` as can be is to agree: the leading eigenvector of the signed graph gives signs
-    (synchronisation over the group of two; Singer 2011), and a shape changes its own as long as that gains.
+    The pairs that agree should have the largest sum of ``weights``: the leading eigenvector of the signed graph gives
+    first signs (synchronisation over the group of two; Singer 2011), and shapes change theirs while the sum grows.
 
     ``count``: number of shapes; ``ends``, ``kept`` and ``weights``: of each pair its shapes, whether its map keeps
     orientation, and how sure that is, not negative. Where pairs join shapes, the one with the lowest number has 1.

@@ -127,7 +127,7 @@ def _solve(problem: _Problem, functions: int) -> SyncResult:
 
 
 def _spanning_tree_init(problem: _Problem, functions: int) -> np.ndarray:
-    """Return latent maps along the spanning tree of the pairs whose best candidate has most for it, (n, k, k)."""
+    """Return latent maps along the spanning tree of the pairs whose best candidates have the best odds, (n, k, k)."""
     count = problem.count
     latent = np.tile(np.eye(functions), (count, 1, 1))
     weight = np.full((count, count), np.inf)
@@ -216,11 +216,11 @@ def _refine(problem: _Problem, latent: np.ndarray, limit: float) -> SyncResult:
 
 
 def _rejoin(problem: _Problem, result: SyncResult) -> SyncResult | None:
-    """Turn parts of the graph that agree within against each other, each as one shape; ``None`` if nothing gains.
+    """Turn whole parts of the graph against each other, each as one shape; ``None`` where that gains nothing.
 
     One wrong pair of the tree sets all behind it apart, and no shape alone can come back over the border: the pairs
     with its own side hold it. A part turned as a whole, ``Y_v Z`` for all its shapes, keeps its own pairs as they are.
-    A part hangs together by pairs that are believed, without those that are the only way to anywhere.
+    Parts are what pairs that are believed join, bridges left out.
     """
     limit, ends = result.limit, problem.ends
     believed = [pair for pair, p in zip(ends, result.probabilities, strict=True) if p[-1] < 0.5]
@@ -292,7 +292,7 @@ def _log_likelihood(residuals: np.ndarray, log_odds: np.ndarray, limit: float) -
 
 
 def _probabilities(residuals: np.ndarray, log_odds: np.ndarray, limit: float, spread: float) -> np.ndarray:
-    """Probability of each candidate and of none, (c + 1,): of one alone at ``limit``, its own odds."""
+    """Probability of each candidate and of none, (c + 1,); a single one with residual ``limit`` keeps its own odds."""
     logits = np.append(log_odds - (residuals - limit) / spread, 0.0)
     grown = np.exp(logits - logits.max())
     return grown / grown.sum()

@@ -85,14 +85,20 @@ def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMa
     """
     ends = []
     for name, given in (("predicted", predicted), ("true", true)):
-        if not isinstance(given, PointMap):
-            given = vertex_point_map(check_point_map(np.asarray(given), len(source.vertices), len(given)), source)
-        ends.append(check_point_map_precise(given, source))
-        if len(ends[0].faces) != len(given.faces):
-            got = f"{len(ends[0].faces)} and {len(given.faces)}"
+        ends.append(_as_points(given, source))
+        if len(ends[0].faces) != len(ends[-1].faces):
+            got = f"{len(ends[0].faces)} and {len(ends[-1].faces)}"
             raise refuse(f"{name} points", "lists of equal length", got, "evaluate the same points")
     distances = surface_point_distances(source, ends[0].faces, ends[0].weights, ends[1].faces, ends[1].weights)
     return distances / np.sqrt(surface_area(source))
+
+
+def _as_points(places: PointMap | np.ndarray, source: Mesh, n_t: int | None = None) -> PointMap:
+    """The points of a point map or of vertices, checked; ``n_t``: how many there must be, where that is known."""
+    if not isinstance(places, PointMap):
+        vertices = np.asarray(places)
+        places = vertex_point_map(check_point_map(vertices, len(source.vertices), n_t or len(vertices)), source)
+    return check_point_map_precise(places, source, n_t)
 
 
 @dataclass(frozen=True)
@@ -114,11 +120,7 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
     places : PointMap or (n_t,) int
         A point or a vertex of the source for each target vertex.
     """
-    if not isinstance(places, PointMap):
-        places = vertex_point_map(
-            check_point_map(np.asarray(places), len(source.vertices), len(target.vertices)), source
-        )
-    places = check_point_map_precise(places, source, len(target.vertices))
+    places = _as_points(places, source, len(target.vertices))
     # A map of a file that is inside out turns nothing over.
     outer, faces = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
     images = point_positions(places, source)

@@ -99,7 +99,9 @@ def unpack_operators(packed: Array) -> Array:
     xp = namespace(packed)
     k = int(np.sqrt(2 * packed.shape[1] + 0.25) - 0.5)
     if k * (k + 1) // 2 != packed.shape[1]:
-        raise refuse("packed slices", "k(k+1)/2 columns", str(packed.shape[1]), "make them with packed_slices")
+        raise refuse(
+            "packed operators", "k(k+1)/2 columns", str(packed.shape[1]), "make them with multiplication_operators"
+        )
     rows, columns = np.triu_indices(k)
     position = np.empty((k, k), dtype=np.int64)
     position[rows, columns] = position[columns, rows] = np.arange(len(rows))

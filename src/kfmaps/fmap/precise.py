@@ -70,10 +70,7 @@ def nearest_vertices(places: PointMap, source: Mesh) -> np.ndarray:
 
 
 def vertex_point_map(target_to_source: np.ndarray, source: Mesh) -> PointMap:
-    """Return a map of vertices as a map of points: each in a corner of some face that has it.
-
-    ``target_to_source (n_t,)``.
-    """
+    """Return a map ``(n_t,)`` to vertices as one to points: each in a corner of some face that has the vertex."""
     face, corner = np.full(len(source.vertices), -1), np.zeros(len(source.vertices), dtype=np.int64)
     face[source.faces.ravel()] = np.repeat(np.arange(len(source.faces)), 3)
     corner[source.faces.ravel()] = np.tile(np.arange(3), len(source.faces))

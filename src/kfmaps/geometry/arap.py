@@ -71,11 +71,9 @@ def build_arap(mesh: Mesh) -> ArapEnergy:
 
 
 def rotations(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """Return the best rotation of each vertex, (n, 3, 3), for deformed positions.
+    """Return the best rotation of each vertex, (n, 3, 3), for deformed positions ``x (n, 3)``.
 
     ``R_i`` takes the edges of the rest shape at vertex i as nearly as possible to those of ``x``.
-
-    ``x (n, 3)``.
     """
     return nearest_rotations(edge_covariances(energy, x))
 
@@ -96,12 +94,10 @@ def spread_matrices(energy: ArapEnergy, areas: np.ndarray, area: float) -> Calla
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
-    """Return the rotation closest to each of some matrices, never a reflection: (n, 3, 3).
+    """Return the rotation closest to each of ``matrices (n, 3, 3)``, never a reflection: (n, 3, 3).
 
     The closed form takes a tenth of the time of singular value decompositions, which are used for the few matrices
     whose rotation is hardly determined.
-
-    ``matrices (n, 3, 3)``.
 
     Markley, Attitude determination using vector observations: a fast optimal matrix algorithm (1993).
     """
@@ -154,18 +150,15 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
-    """Return ``b (n, 3)`` with ``laplacian @ x = b`` at the least energy for given rotations.
-
-    ``turns (n, 3, 3)``.
-    """
+    """Return ``b (n, 3)`` with ``laplacian @ x = b`` at the least energy for the rotations ``turns (n, 3, 3)``."""
     n = len(turns)
     return 0.5 * (energy.adjoint_moments @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
 
 
 def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = None) -> float:
-    """Return the energy of deformed positions, at least 0.
+    """Return the energy, at least 0, of deformed positions ``x (n, 3)`` with rotations ``turns (n, 3, 3)``.
 
-    ``x (n, 3)``; ``turns (n, 3, 3)``: rotations of the vertices; the best ones when not given.
+    Without ``turns`` the best rotations are taken.
     """
     turns = rotations(energy, x) if turns is None else turns
     sizes = np.sum(x * (energy.laplacian @ x)) + np.sum(energy.rest * (energy.laplacian @ energy.rest))
@@ -173,10 +166,7 @@ def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = No
 
 
 def arap_energy_per_vertex(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """Return the share of each vertex, (n,), in twice the energy of deformed positions, with the best rotations.
-
-    ``x (n, 3)``.
-    """
+    """Return each vertex's share, (n,), in twice the energy of positions ``x (n, 3)`` with the best rotations."""
     edges = energy.laplacian.tocoo()
     off = edges.row != edges.col
     i, j, w = edges.row[off], edges.col[off], -edges.data[off]

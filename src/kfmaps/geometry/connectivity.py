@@ -12,10 +12,7 @@ from kfmaps._arrays import index_ranges
 
 
 def unique_vertices(vertices: np.ndarray) -> np.ndarray:
-    """Return for each vertex the number of the first one at exactly the same position: (n,).
-
-    ``vertices (n, 3)``: finite positions.
-    """
+    """Return for each of ``vertices (n, 3)``, finite, the number of the first one at the same position: (n,)."""
     points = vertices + 0.0  # makes -0.0 and 0.0 the same
     order = np.lexsort(points.T)
     moved = np.ones(len(points), dtype=bool)

@@ -50,7 +50,7 @@ def encode_png(pixels: np.ndarray) -> Picture:
 
 
 def _sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    """The colours (q, 3) of a picture at ``uv (q, 2)``, linear between the centres of texels; it repeats itself."""
+    """The colours (q, 3) of a picture at ``uv (q, 2)``, linear between the centres of texels; it is periodic."""
     height, width = pixels.shape[:2]
     x, y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5
     left, top = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)

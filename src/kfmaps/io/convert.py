@@ -1,6 +1,6 @@
-"""What a shape, a map or landmarks may be handed in as, from Python: files, arrays, and other libraries' objects.
+"""What Python functions take as a shape, a map or landmarks: files, arrays, and other libraries' objects.
 
-Nothing is imported for it: an object is known by what it has.
+No library is imported for it: an object is recognised by its attributes.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
 
 
 def _parts(shape: Any) -> tuple[ArrayLike, np.ndarray]:
-    """Vertices and triangles of what is no Mesh and no file."""
+    """Vertices and triangles of arrays or of another library's object."""
     if isinstance(shape, np.ndarray):
         return shape, _triangles(())
     if isinstance(shape, tuple | list):

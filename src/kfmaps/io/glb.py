@@ -39,7 +39,7 @@ class _Chunks:
         return len(self.accessors) - 1
 
     def places(self, values: np.ndarray) -> int:
-        """Add positions or differences of them, whose bounds the format wants said, and return their number."""
+        """Add positions or differences of them, with the bounds that the format requires, and return their number."""
         single = values.astype("<f4")
         return self.array(single, _FLOAT, "VEC3", min=single.min(axis=0).tolist(), max=single.max(axis=0).tolist())
 

@@ -93,7 +93,7 @@ def _beside(uri: str, name: str) -> Path:
 
 
 def _count(value: object) -> int:
-    """A number of things, or the number of one."""
+    """A whole number, not negative, such as a count or an index."""
     if type(value) is not int or value < 0:
         raise ValueError(f"a whole number is {value!r:.20}")
     return value
@@ -293,7 +293,7 @@ class _Scene:
         return Skin(names, np.array(parents), np.stack([self.matrices[j] for j in joints]), weights)
 
     def _check_parts(self, parts: list[_Part], joints: list[int]) -> None:
-        """Refuse other vertices and corners than can be read, and more than nodes should repeat or memory holds."""
+        """Refuse types of vertices and corners that are not read, and more than nodes may repeat or memory holds."""
         used = []
         for part in parts:
             numbers = [part.attributes["POSITION"]]
@@ -320,9 +320,9 @@ class _Scene:
         check_memory(_BYTES_PER_ROW * rows + 48 * moved + 24 * follow, self.name, what, REPAIR)
 
     def _picture(self, parts: list[_Part]) -> Picture | None:
-        """The colour texture that all ``parts`` share; ``None`` when there is no such one, or of another kind.
+        """The colour texture that all ``parts`` share; ``None`` without one, or when it is of another kind.
 
-        A picture beside the file that is not there is none either: who wants the shape alone need not have it.
+        So it is when the picture's own file is missing: who wants the shape alone need not have it.
         """
         images = set()
         for primitive in [part.primitive for part in parts]:

@@ -64,6 +64,7 @@ def read_landmark_names(path: str | Path) -> list[str]:
 
 
 def _printable(text: str) -> str:
+    """A text on one line, without characters that a terminal would not print."""
     return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
 
 

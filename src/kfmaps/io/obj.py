@@ -86,7 +86,7 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
 
 
 def _numbers(lines: _Lines, name: str, wanted: str) -> Rows:
-    """The numbers of lines, none of them without."""
+    """The numbers of lines, each of which must have some."""
     at = np.array(lines.numbers, dtype=np.int64)
     rows = parse_rows(b"\n".join(lines.contents), name, at)
     check_lines(~np.isin(at, rows.lines), at, name, wanted, lambda _: "no numbers")

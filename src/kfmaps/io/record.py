@@ -34,7 +34,7 @@ def picture_in(data: bytes) -> Picture | None:
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """A skeleton and what of each vertex follows which joint."""
+    """A skeleton, and how much each vertex follows each joint."""
 
     names: tuple[str, ...]  # of the joints
     parents: np.ndarray  # (j,): the joint above each, -1 of roots

@@ -90,7 +90,7 @@ def read_table(path: str | Path) -> list[dict[str, str]]:
 
 @contextmanager
 def complete_or_refuse(name: str, wanted: str) -> Iterator[None]:
-    """Report whatever a reader runs into in a wrong structure as a file that is not complete."""
+    """Refuse, with what was ``wanted``, a file whose wrong structure makes its reader fail in whatever way."""
     try:
         yield
     except (InvalidInput, MemoryError):

@@ -116,7 +116,7 @@ def transfer(
 def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | None, nearest: np.ndarray) -> np.ndarray:
     """Functions mixed between the corners of the triangles that points lie in; of all else that of the nearest vertex.
 
-    A corner without a finite value makes none of the mean, whose nearest vertex counts; one of weight 0 has no say.
+    A corner without a finite value makes none of the mean, whose nearest vertex counts; one of weight 0 does not count.
     """
     if at is None or faces is None or values.dtype.kind != "f":
         return values[nearest]

@@ -94,7 +94,7 @@ def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
 
 
 def _texts(cells: list[str], name: str) -> np.ndarray:
-    """``cells`` as an array, in which each takes the room of the longest."""
+    """``cells`` as an array of texts; each takes as much memory as the longest."""
     longest = max(cells, key=len)
     if len(longest) * len(cells) > _MOST_LETTERS:
         wanted = f"labels of at most {_MOST_LETTERS // len(cells):,} letters each, for there are {len(cells):,}"

@@ -128,12 +128,11 @@ def deformable_mesh(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None
 def initial_deformation(
     body: DeformableMesh, points: np.ndarray, places: np.ndarray, normals: np.ndarray, weights: np.ndarray
 ) -> np.ndarray:
-    """Return where the vertices begin, (n, 3): as given places say, but where these fold the surface, as the
-    surroundings do.
+    """Return where the vertices begin, (n, 3): at given places, or where the surroundings go if those fold it.
 
     Each vertex goes to the weighted mean of the places that are its own, and the vertices between them smoothly. Where
-    the normals of that shape disagree with those given the placing is folded or twisted: there vertices have no say,
-    and rotations are carried over from the surroundings by diffusion.
+    the normals of that shape disagree with those given the placing is folded or twisted: there the vertices do not
+    count, and rotations are carried over from the surroundings by diffusion.
 
     ``points (q,)``: vertices that have places; ``places (q, 3)`` and ``normals (q, 3)``; ``weights (q,)``.
     """

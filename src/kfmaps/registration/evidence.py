@@ -68,10 +68,7 @@ def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
 
 
 def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> DeformationEnergy:
-    """Return how far each copy must bend to follow a functional map.
-
-    ``C (k_t, k_s)``.
-    """
+    """Return how far each copy must bend to follow a functional map ``C (k_t, k_s)``."""
     forth, back = (_deform_one(fit, *way) for way in _point_maps(C, pair))
     if forth is None or back is None:
         # That a copy falls apart says nothing of the map.
@@ -80,10 +77,9 @@ def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> Deformatio
 
 
 def registered_shot_error(C: np.ndarray, pair: ProxyPair) -> float | None:
-    """Return the mean squared difference of SHOT, from 0 to 2, of each copy bent onto the other as a map says.
+    """Return the mean squared difference of SHOT, 0 to 2, of each copy bent onto the other as ``C (k_t, k_s)`` says.
 
-    ``C (k_t, k_s)``. Returns the mean of both directions, or that of one where the other copy falls apart; ``None``
-    where both do.
+    It is the mean of both directions, or that of one where the other copy falls apart; ``None`` where both do.
     """
     errors = [_bent_shot_error(*way) for way in _point_maps(C, pair)]
     known = [error for error in errors if error is not None]
@@ -104,7 +100,7 @@ def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndar
 
 
 def _bent(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> np.ndarray:
-    """The first surface's vertices on the second; of two candidates with one map found once."""
+    """The first surface's vertices bent onto the second; candidates with the same map share the result."""
     return pair.once((fit, points.tobytes()), lambda: fit.bent(pair, points)[0])
 
 

@@ -1,4 +1,4 @@
-"""The source bent onto the target, as the last step of a match: where points slide along the surface it finds back.
+"""The source bent onto the target as the last step of a match, which brings back points that slid along the surface.
 
 A refined functional map is right up to a smooth sliding of points, which its basis hardly sees, and here and there a
 limb is twisted or folded. So the source's mesh is bent onto the target as rigidly as possible (Sorkine and Alexa 2007)
@@ -214,7 +214,7 @@ class MeshPair:
 
 
 def mesh_pair(body: DeformableMesh, target: Mesh, look_t: ClosestPointQuery | None = None) -> MeshPair:
-    """Return a surface at rest and the one that it is to be bent onto; ``look_t`` where it is there already."""
+    """Return a surface at rest and the one to bend it onto; ``look_t``: the target's query, where it exists already."""
     return MeshPair(body, target, vertex_areas(target), closest_point_query(target) if look_t is None else look_t)
 
 

@@ -83,7 +83,7 @@ class ReviewServer:
 
 
 def _check_changes(changes: object, one: SpecimenLandmarks, mesh: Mesh) -> dict[str, tuple[np.ndarray, str]]:
-    """Return the corrections that the page sent: where each landmark lies on the mesh, and a word."""
+    """Return the corrections that the page sent: where each landmark lies on the mesh, and its status."""
     rows = {name: row for row, name in enumerate(one.points.names)}
     found: dict[str, tuple[np.ndarray, str]] = {}
     for change in changes if isinstance(changes, list) and changes else [None]:

@@ -156,7 +156,7 @@ def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
 
 @dataclass(eq=False)
 class PickerServer:
-    """The server of the picker's page: seven requests, two files to write, none to read.
+    """The server of the picker's page: it answers a fixed list of requests, writes two files and reads none.
 
     ``server`` is not answering yet: call its ``serve_forever``. ``runs`` are the matches started from the page.
     """

@@ -159,7 +159,7 @@ class _Handler(RequestHandler):
             return json_reply({"error": f"{type(error).__name__}: {error}"}, 500)
 
     def _foreign(self) -> str | None:
-        """Why the request is not this page's own, if it is not."""
+        """Why the request does not come from this page; ``None`` when it does."""
         hosts = self.request.headers.get_list("Host")
         if hosts not in ([f"{_LOOPBACK}:{self.site.port}"], [f"localhost:{self.site.port}"]):
             return "the request was sent to another host's name"

@@ -82,9 +82,9 @@ def register_part(
 def refine_registration(
     found: PartRegistration, copy: CoarseProxy, part: Mesh, whole: PartSurface, landmarks: np.ndarray
 ) -> PartRegistration:
-    """Bend a ``part`` onto a whole as coarse copies of both were bent, of which ``copy`` is the part's.
+    """Return the registration of a ``part`` that begins with that ``found`` for coarse copies of part and whole.
 
-    ``landmarks (l, 2)``: vertices of the part and of the whole.
+    ``copy``: that of the part; ``landmarks (l, 2)``: vertices of the part and of the whole.
     """
     rest, x = deformable_mesh(scale_mesh(part, found.scale)), found.vertices
     if len(x) < len(part.vertices):
