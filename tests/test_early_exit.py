@@ -34,17 +34,16 @@ def on(pair):
 
 
 def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
-    """Kinds of rough maps tried and weights of the signs, how many are refined further, by how many weights."""
-    tried, finalists, weighted = [], [], []
+    """Kinds of rough maps that are tried, weights of the signs, and how many are refined further."""
+    tried, finalists = [], []
 
     def rough(starts, *rest):
         tried.extend(start.name.split()[0] for start in starts)
         tried.extend(start.weights[0] for start in starts if start.name.startswith("signs"))
         return original(starts[::5], *rest)
 
-    def fine(few, *rest):
+    def fine(few, *_rest):
         finalists.append(len(few))
-        weighted.append(len(rest[-1]))
         return few
 
     original = found_by.refine_coarse
@@ -53,18 +52,16 @@ def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
         patch.setattr(found_by, "refine_coarse", rough)
         patch.setattr(found_by, "refine_fine", fine)
         candidates(pair[0], pair[1], SMALL, on, 0, landmarks=landmarks, descriptors=descriptors)
-    return set(tried), finalists[0], weighted[0]
+    return set(tried), finalists[0]
 
 
 def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, pair, on):
-    tried, finalists, weights = names(monkeypatch, pair, on, -np.inf)
+    tried, finalists = names(monkeypatch, pair, on, -np.inf)
     assert tried == {"signs", "turned", 0.0, 12.0}
     assert finalists <= found_by._FEWER
-    assert weights == 1
-    tried, finalists, weights = names(monkeypatch, pair, on, np.inf)
+    tried, finalists = names(monkeypatch, pair, on, np.inf)
     assert {"signs", "turned", "kicked", 0.0, 4.0, 12.0} < tried
     assert finalists > found_by._FEWER
-    assert weights == len(found_by.FINE_WEIGHTS)
 
 
 def test_what_the_user_says_is_heard(monkeypatch, pair, on):

@@ -94,7 +94,7 @@ def candidates(
     report(0.75)
     finalists = _FEWER if easy else 10
     chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, finalists)
-    refined = refine_fine(chosen, few, samples.whole, functions, threads, FINE_WEIGHTS[:1] if easy else FINE_WEIGHTS)
+    refined = refine_fine(chosen, few, samples.whole, functions, threads)
     report(1.0)
     return refined
 
@@ -126,27 +126,22 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads
 
 
 def refine_fine(
-    chosen: list[Candidate],
-    few: SamplePair,
-    pair: SamplePair,
-    functions: int,
-    threads: int | None = None,
-    weights: tuple[KernelWeights, ...] = FINE_WEIGHTS,
+    chosen: list[Candidate], few: SamplePair, pair: SamplePair, functions: int, threads: int | None = None
 ) -> list[Candidate]:
     """Refine the chosen maps, found on ``few`` samples, on all, up to :data:`FINE` functions in steps of 5.
 
-    All are refined with each of the ``weights``, and alternatives without descriptors as well.
+    All are refined with descriptors, and alternatives without as well.
     """
-    guided, bare = distinct_weights(weights, pair), WEIGHTS[0]
+    guided, bare = distinct_weights(FINE_WEIGHTS, pair), WEIGHTS[0]
     stop = min(FINE, functions)
     found = []
-    for used in dict.fromkeys((bare, *guided)):
-        members = [c for c in chosen if used in guided or not c.uses_descriptors]
+    for weights in dict.fromkeys((bare, *guided)):
+        members = [c for c in chosen if weights in guided or not c.uses_descriptors]
         if members:
             size = min(20, stop, *members[0].functional_map.shape)  # from fewer functions it loses right maps
-            uses = bool(used[0]) or pair.descriptor_cost is None
-            starts = [Start(c.name, c.functional_map, uses, used, fit=c.fit) for c in members]
-            if used[2:]:
+            uses = bool(weights[0]) or pair.descriptor_cost is None
+            starts = [Start(c.name, c.functional_map, uses, weights, fit=c.fit) for c in members]
+            if weights[2:]:
                 matches = [match_of_map(c.points, few.source, few.target) for c in members]
                 starts = [replace(start, match=match) for start, match in zip(starts, matches, strict=True)]
             found += refine_batch(starts, pair, (*range(size, stop, 5), stop), threads)
