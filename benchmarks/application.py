@@ -34,7 +34,7 @@ from kfmaps.fmap.multiplication_operators import (
 )
 from kfmaps.fmap.terms import operator_term
 from kfmaps.kernels.kernels import Linear
-from kfmaps.matching.assemble import CONDENSATION
+from kfmaps.matching.assemble import FEATURES_SHARE
 from kfmaps.matching.features import kernel_features, pair_descriptors
 from kfmaps.shape import prepare
 
@@ -107,7 +107,7 @@ def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
         return C @ blocked.gram_s + blocked.gram_t @ C - 2 * mixed
 
     def formed(rtol: float) -> Any:
-        kept = truncate_features(small[0], F_s, small[1], F_t, CONDENSATION * rtol) if rtol else (F_s, F_t)
+        kept = truncate_features(small[0], F_s, small[1], F_t, FEATURES_SHARE * rtol) if rtol else (F_s, F_t)
         packed = multiplication_operators(small[0], kept[0]), multiplication_operators(small[1], kept[1])
         packed = truncate_operators(*packed, rtol) if rtol else packed
         return operator_term(*(unpack_operators(p) for p in packed))

@@ -118,7 +118,7 @@ def _scores(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _named(x: np.ndarray, y: np.ndarray, count: int) -> np.ndarray:
-    """Which rows of ``y`` are among the ``count`` closest of any row of ``x``; in ascending order."""
+    """Which rows of ``y`` are among the ``count`` closest to some row of ``x``, in ascending order."""
     if count >= len(y):
         return np.arange(len(y))
     scores = _scores(x, y)

@@ -1,4 +1,4 @@
-"""Bases of two shapes, rotated so that they speak of the same things.
+"""Bases of two shapes, rotated so that their functions correspond.
 
 Eigenfunctions of two shapes that are not isometric drift apart: their order, signs and subspaces differ. Coupled bases
 ``Φ_s U_s``, ``Φ_t U_t`` keep the Laplacians nearly diagonal and make corresponding functions have nearly the same

@@ -1,6 +1,6 @@
 """What a fit minimises: a quadratic energy, penalties that are not quadratic, and maybe a constraint on C.
 
-Without penalties and constraint it is the linear system that it always was, solved once. A penalty
+Without penalties and constraint it is one linear system, solved once. A penalty
 (:mod:`kfmaps.fmap.losses`) is replaced by its quadratic majorizer, again and again; a constraint
 (:mod:`kfmaps.fmap.constraints`) takes the place of the linear solve. Both maps of a pair at once are minimised in turn
 (:func:`fit_bidirectional`). Every step starts where the last one ended and lowers the same objective, so it never

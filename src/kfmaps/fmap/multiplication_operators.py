@@ -84,7 +84,7 @@ def _new_products(phi: Array, _: Array | None) -> Array:
 
 
 def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
-    """The same, into the memory of the ``old`` ones where they have the size: fresh memory costs as much as they do."""
+    """As :func:`_new_products`, into the memory of ``old`` ones of that size: fresh memory costs as much as they do."""
     k, m = phi.shape
     products = old if old is not None and old.shape[1] == m else np.empty((k * (k + 1) // 2, m), dtype=phi.dtype)
     start = 0

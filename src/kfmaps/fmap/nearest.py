@@ -82,7 +82,7 @@ def searches_cells(queries: int, points: int, dimensions: int, exact: bool | Non
 
 
 def _in_range(queries: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Both times one power of two where squares of their numbers would not be numbers any more."""
+    """Both times one power of two, where squares of their numbers would overflow or vanish."""
     ends = [(float(x.min(initial=0.0)), float(x.max(initial=0.0))) for x in (points, queries)]
     size = max(max(-low, high) for low, high in ends)
     if size == 0 or 2.0**-300 < size < 2.0**300:

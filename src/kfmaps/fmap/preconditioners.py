@@ -1,6 +1,6 @@
 """Approximate inverses of the energy's operator, for conjugate gradients.
 
-The operator is ``A(C) = C S_s + S_t C + rest``, where the Gram matrices of descriptors and slices are ``S_s`` and
+The operator is ``A(C) = C S_s + S_t C + rest``, where the Gram matrices of descriptors and operators are ``S_s`` and
 ``S_t``, and the rest couples both sides. :func:`jacobi` divides by the diagonal. :func:`sylvester` divides by the
 diagonal that the whole operator has in the eigenbases of ``S_s`` and ``S_t``: were there no rest, that would be the
 exact inverse. Without the rest's diagonal it is worse than :func:`jacobi`; see research/operator.md.

@@ -26,8 +26,8 @@ from kfmaps.kernels.kernels import KernelLike
 from kfmaps.matching.features import Descriptors, Features, kernel_features, resolve_kernel_width
 from kfmaps.shape import Shape
 
-CONDENSATION = 0.5
-"""Part of ``compression`` that is spent on the features, before slices are formed of them."""
+FEATURES_SHARE = 0.5
+"""Part of ``operator_rtol`` that is spent on the features, before operators are formed of them."""
 ORIENTATION_FEATURES = 40
 """Features whose orientation operators are formed: the strongest of the joint singular value decomposition."""
 
@@ -53,7 +53,7 @@ class FitProblem:
     kernel: KernelLike  # with every γ a number
     descriptors: Descriptors
     features: Features | None = None  # ``None`` with the exact kernel
-    # Slices of the operators that the map should commute with, on source and target.
+    # Operators that the map should commute with, packed, on source and target.
     multiplications: tuple[Array, Array] | None = None
     orientations: tuple[Array, Array] | None = None
 
@@ -65,7 +65,7 @@ class FitProblem:
 
     @property
     def slices(self) -> int:
-        """Multiplication slices left after compression."""
+        """Multiplication operators left after compression."""
         return 0 if self.multiplications is None else int(self.multiplications[0].shape[0])
 
     @cached_property
@@ -95,10 +95,10 @@ class FitProblem:
             F = (self.features.source, self.features.target)
             terms["descriptors"] = descriptor_term(small[s], F[s], small[t], F[t])
         sets = (("commutativity", self.multiplications, 1), ("orientation", self.orientations, -1))
-        for name, slices, parity in sets:
-            if slices is not None:
-                single = is_numpy(*slices) and _serves_in_single(self.config.operator_rtol)
-                terms[name] = operator_term(slices[s], slices[t], parity, single)
+        for name, operators, parity in sets:
+            if operators is not None:
+                single = is_numpy(*operators) and _serves_in_single(self.config.operator_rtol)
+                terms[name] = operator_term(operators[s], operators[t], parity, single)
         energy = Energy(terms, {name: getattr(weights, name) for name in terms})
         pair = [replace(shape, basis=basis) for shape, basis in zip(self.shapes, small, strict=True)]
         more = {}
@@ -118,7 +118,7 @@ def assemble(
     rng: np.random.Generator,
     whole: tuple[Shape, Shape] | None = None,
 ) -> FitProblem:
-    """Return what ``config`` asks a map to keep: kernel, features and slices, from which energies are made.
+    """Return what ``config`` asks a map to keep: kernel, features and operators, from which energies are made.
 
     ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
     samples of shapes (:func:`kfmaps.shape.sample_shape`), ``whole`` are those shapes: orientation needs their faces.
@@ -153,7 +153,7 @@ def compressed_operators(
 ) -> tuple[Array, Array]:
     """Return packed multiplication operators of the features of both shapes, truncated to ``rtol`` unless it is 0."""
     if rtol:
-        features = truncate_features(bases[0], features[0], bases[1], features[1], CONDENSATION * rtol)
+        features = truncate_features(bases[0], features[0], bases[1], features[1], FEATURES_SHARE * rtol)
     packed_s, packed_t = (
         multiplication_operators(b, F, threads=threads, single=_serves_in_single(rtol))
         for b, F in zip(bases, features, strict=True)
@@ -182,18 +182,18 @@ def orientation_pair(
     size: float,
     threads: int | None = None,
 ) -> tuple[Array, Array]:
-    """Return slices of ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, (k, k), of both shapes (Ren et al. 2018).
+    """Return operators ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, (k, k), of both shapes (Ren et al. 2018).
 
     The operators change sign under a mirror, so maps that commute with them keep orientation. Their summed squared
     norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
     Features on samples are continued to the ``whole`` shapes by what of them lies in the basis.
     """
-    slices = []
+    operators = []
     for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
         if all_of_it is not shape:
             F, basis = all_of_it.basis.reconstruct(to_numpy(basis.project(F))), all_of_it.basis
-        slices.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F, threads), features.source))
-    return scale_operators(slices, size)
+        operators.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F, threads), features.source))
+    return scale_operators(operators, size)
 
 
 def principal_features(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:

@@ -134,7 +134,8 @@ def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
 def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int, threads: int | None = None) -> list[Start]:
     """Return the ``best`` candidates composed with near-symmetries of both shapes.
 
-    Whatever else a search has missed, the best map is compared with these, so that it is not sure for want of a rival.
+    Whatever else a search has missed, the best map is compared with these, so that it is not called sure merely for
+    want of a rival.
     """
     own, theirs = (self_maps(side, functions, threads) for side in (pair.source, pair.target))
     composed = []

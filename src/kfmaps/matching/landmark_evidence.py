@@ -40,7 +40,7 @@ class LandmarkEvidence:
         )
 
     def without(self, doubted: np.ndarray) -> LandmarkEvidence:
-        """Return the same of the other landmarks; ``doubted (l,)`` bool."""
+        """Return the evidence without the landmarks that are ``doubted (l,)`` bool."""
         kept = ~doubted
         return LandmarkEvidence(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
 

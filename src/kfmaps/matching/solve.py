@@ -42,7 +42,7 @@ class Fit:
     rank : int
         Features of the kernel that were kept.
     slices : int
-        Slices left after compression.
+        Multiplication operators left after compression.
     kernel : str
         With every γ a number.
     config : Config

@@ -90,7 +90,7 @@ def match_partial(
 def _place_by_landmarks(
     place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration, two: bool
 ) -> tuple[PlacedPart, np.ndarray]:
-    """Return a placement, and its errors at the landmarks ``pairs (l, 2)`` where they have no say, (l,).
+    """Return a placement, and its errors, (l,), at the landmarks ``pairs (l, 2)`` when these do not count.
 
     A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
     where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept,

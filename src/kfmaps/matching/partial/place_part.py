@@ -169,7 +169,7 @@ def _register_fully(
 ) -> PartRegistration:
     """Register the part once more, from where it lies, at the scale of its edges.
 
-    ``guided``: whether landmarks have a say in where it ends.
+    ``guided``: whether landmarks pull it.
     """
     mesh, vertex_normals, samples = pair.whole.mesh, pair.whole.surface.normals, pair.part.samples
     places = closest_points(found.vertices[samples], mesh.vertices, mesh.faces)
