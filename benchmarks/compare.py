@@ -1,7 +1,7 @@
 """This library and pyFM on the same pairs in one run: ``python benchmarks/compare.py [--data FOLDER] [--json PATH]``.
 
 Both start from the same meshes and landmarks and take turns, with BLAS on one thread; the shortest of ``--repeats``
-counts. "fit" is given the same descriptors, functions and landmarks on both sides: here features, slices and the
+counts. "fit" is given the same descriptors, functions and landmarks on both sides: here features, operators and the
 solve, there ``fit()``, to where it stops by itself and to the relative residual of ours, ``‖∇E(C)‖ ≤ rtol ‖∇E(0)‖``.
 "whole" is everything from the mesh to the refined map; geomfum takes part in it where it is installed. CPU seconds are
 of all threads; errors are mean geodesic distances from the truth in per cent of √area. Needs pyFM: ``pip install

@@ -38,7 +38,7 @@ result = kfmaps.match(pair.source, pair.target, config, landmarks=landmarks)
 
 assert result.fit.status is not None  # a search may do without one; with landmarks there is
 assert result.fit.raw_target_to_source is not None
-print(f"{result.fit.kernel}: {result.fit.rank} features, {result.fit.n_operators} slices after compression")
+print(f"{result.fit.kernel}: {result.fit.rank} features, {result.fit.n_operators} operators after compression")
 print(f"solver {result.fit.status} after {result.fit.steps} steps")
 print({stage: round(seconds, 2) for stage, seconds in result.seconds.items()})
 

@@ -99,12 +99,12 @@ def timed_assembly(options: Options, config: Config) -> Assembled:
 
 
 def timings(options: Options, config: Config) -> list[dict[str, Any]]:
-    """Return seconds of one application of the operator in each form, and the difference of its result to slices'."""
+    """Return seconds of one application of the operator in each form, and the difference of its result to operators'."""
     exact = timed_assembly(options, config)
     compressed = timed_assembly(options, replace(config, operator_rtol=recommended(100).operator_rtol))
     rest = {n: w for n, w in exact.energy.weights.items() if n != "commutativity"}
     others = Energy({n: exact.energy.terms[n] for n in rest}, rest)
-    slices, fewer = (cast(OperatorCommutativity, each.energy.terms["commutativity"]) for each in (exact, compressed))
+    operators, fewer = (cast(OperatorCommutativity, each.energy.terms["commutativity"]) for each in (exact, compressed))
     W_s, W_t = exact.features.source, exact.features.target
     source, target = exact.bases
     size = config.basis.n_eigenfunctions
@@ -117,7 +117,7 @@ def timings(options: Options, config: Config) -> list[dict[str, Any]]:
 
     def reused(C: np.ndarray) -> np.ndarray:
         mixed = hadamard((source, target), (W_s, W_t), C)
-        return C @ slices.gram_s + slices.gram_t @ C - 2 * mixed
+        return C @ operators.gram_s + operators.gram_t @ C - 2 * mixed
 
     whole = hadamard_term(exact.features.kernel, source, exact.descriptors.source, target, exact.descriptors.target)
     rank = W_s.shape[1]
@@ -125,10 +125,10 @@ def timings(options: Options, config: Config) -> list[dict[str, Any]]:
         f"figure 1 as written, rank {rank}": literal,
         f"figure 1, repeated matrices precomputed, rank {rank}": reused,
         "the same with the whole kernel": whole.apply,
-        f"slices, all {slices.count}": slices.apply,
-        f"slices, compressed to {fewer.count}": fewer.apply,
+        f"operators, all {operators.count}": operators.apply,
+        f"operators, compressed to {fewer.count}": fewer.apply,
     }
-    reference = others.apply(C) + slices.apply(C)
+    reference = others.apply(C) + operators.apply(C)
     rows = []
     for name, apply in forms.items():
         gap = others.apply(C) + apply(C) - reference
@@ -162,12 +162,12 @@ def conclusions(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -
     gaps = [float(row["relative difference"]) for row in times]
     lines.append(
         f"One application of the operator takes {written:.3f} s as figure 1 writes it, {reused:.3f} s when what does "
-        f"not change is precomputed, and {ours:.3f} s with slices: {written / ours:.1f} and {reused / ours:.1f} times "
-        f"faster, in the same run on one thread. Compressed slices: {fewer:.3f} s; the whole kernel: {whole:.3f} s. "
+        f"not change is precomputed, and {ours:.3f} s with operators: {written / ours:.1f} and {reused / ours:.1f} times "
+        f"faster, in the same run on one thread. Compressed operators: {fewer:.3f} s; the whole kernel: {whole:.3f} s. "
         f"The paper's took {PAPER_SECONDS} s on a machine of 2018."
     )
     lines.append(
-        f"The first two and the slices agree to {max(gaps[:2]):.0e}. The whole kernel differs from them by "
+        f"The first two and the operators agree to {max(gaps[:2]):.0e}. The whole kernel differs from them by "
         f"{gaps[2]:.1e}, which is what the Nyström approximation leaves out."
     )
     return lines

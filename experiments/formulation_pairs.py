@@ -1,4 +1,4 @@
-"""Errors of every formulation on one pair; descriptors, kernel and slices of a pair are computed once.
+"""Errors of every formulation on one pair; descriptors, kernel and operators of a pair are computed once.
 
 Fits and refinements use samples; errors are those of some hundred target vertices with a known correspondence, each of
 which may be sent to any source vertex.

@@ -67,13 +67,13 @@ def systems(data_set: DataSet, pair: Pair, count: int) -> list[dict[str, Any]]:
     for name in KERNELS:
         kernel: KernelLike = Linear() if name == "linear" else base.kernel
         features = kernel_features(source, target, used, replace(base, kernel=kernel), np.random.default_rng(0))
-        slices = [
+        operators = [
             unpack_operators(multiplication_operators(basis, F))
             for basis, F in zip(small, (features.source, features.target), strict=True)
         ]
         terms = {
             "descriptors": descriptor_term(small[0], features.source, small[1], features.target),
-            "commutativity": operator_term(*slices),
+            "commutativity": operator_term(*operators),
             "laplacian": laplacian_term(*small),
         }
         matrices = {"F_P": kernel_descriptor_term(kernel, large[0], used.source, large[1], used.target).gram_s}

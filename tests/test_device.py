@@ -57,7 +57,7 @@ def test_pytorch_agrees_with_numpy(name, where, pair):
         match(pair[0], pair[1], replace(config, device=device), landmarks=landmarks, rng=0) for device in ("cpu", where)
     )
     scale = np.abs(ours.fit.raw_functional_map).max()
-    # On NumPy slices are multiplied in single precision.
+    # On NumPy operators are multiplied in single precision.
     np.testing.assert_allclose(theirs.fit.raw_functional_map, ours.fit.raw_functional_map, atol=1e-5 * scale, rtol=0)
     np.testing.assert_allclose(theirs.functional_map, ours.functional_map, atol=1e-6, rtol=0)
     np.testing.assert_array_equal(theirs.target_to_source, ours.target_to_source)

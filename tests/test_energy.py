@@ -50,13 +50,13 @@ def make(name, case, asarray, convert):
         return descriptor_term(S, A_s, T, A_t), lambda C: C @ P_s - P_t
     if name == "kernel descriptors":
         return kernel_descriptor_term(Gaussian(0.3), S, A_s, T, A_t, block=7), None
-    if name == "slices":
+    if name == "operators":
         X_s, X_t = explicit_slices(source, W_s), explicit_slices(target, W_t)
         term = operator_term(
             unpack_operators(multiplication_operators(S, A_s)), unpack_operators(multiplication_operators(T, A_t))
         )
         return term, lambda C: C @ X_s - X_t @ C
-    if name == "antisymmetric slices":
+    if name == "antisymmetric operators":
         X_s, X_t = antisymmetric(rng, 3, K_S), antisymmetric(rng, 3, K_T)
         return operator_term(asarray(X_s), asarray(X_t), parity=-1), lambda C: C @ X_s - X_t @ C
     if name == "hadamard":
@@ -74,8 +74,8 @@ def make(name, case, asarray, convert):
             return adjoint_term(asarray(D)), lambda C: C - D.T
         pair = lambda C: np.concatenate([(C @ D - np.eye(K_T)).ravel(), (D @ C - np.eye(K_S)).ravel()])  # noqa: E731
         return inverse_term(asarray(D)), pair
-    parts = {n: make(n, case, asarray, convert) for n in ("descriptors", "slices", "laplacian")}
-    weights = {"descriptors": 2.0, "slices": 0.5, "laplacian": 0.0}
+    parts = {n: make(n, case, asarray, convert) for n in ("descriptors", "operators", "laplacian")}
+    weights = {"descriptors": 2.0, "operators": 0.5, "laplacian": 0.0}
 
     def residual(C):
         return np.concatenate([np.sqrt(weights[n]) * f(C).ravel() for n, (_, f) in parts.items() if f is not None])
@@ -83,7 +83,7 @@ def make(name, case, asarray, convert):
     return Energy({n: term for n, (term, _) in parts.items()}, weights), residual
 
 
-TERMS = ["descriptors", "kernel descriptors", "slices", "antisymmetric slices", "hadamard", "laplacian", "energy"]
+TERMS = ["descriptors", "kernel descriptors", "operators", "antisymmetric operators", "hadamard", "laplacian", "energy"]
 TERMS += ["resolvent", "inverse", "adjoint"]
 
 
@@ -132,10 +132,10 @@ def test_hadamard_form_equals_slices_of_the_features(kernel, case):
     source, target, P_s, P_t, C = case
     factor = nystrom(kernel, np.vstack([P_s, P_t]), rtol=1e-14)
     W_s, W_t = factor.features(P_s), factor.features(P_t)
-    slices = operator_term(explicit_slices(source, W_s), explicit_slices(target, W_t))
+    operators = operator_term(explicit_slices(source, W_s), explicit_slices(target, W_t))
     hadamard = hadamard_term(kernel, source, P_s, target, P_t, block=11)
-    np.testing.assert_allclose(slices.apply(C), hadamard.apply(C), rtol=1e-6, atol=1e-7)
-    np.testing.assert_allclose(slices.diagonal(), hadamard.diagonal(), rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(operators.apply(C), hadamard.apply(C), rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(operators.diagonal(), hadamard.diagonal(), rtol=1e-6, atol=1e-7)
     features = descriptor_term(source, W_s, target, W_t)
     exact = kernel_descriptor_term(kernel, source, P_s, target, P_t, block=11)
     np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-6, atol=1e-7)
@@ -222,5 +222,5 @@ def test_bad_energies_are_refused(case):
         descriptor_term(source, W_s, target, W_t[:, :-1])
     with pytest.raises(InvalidInput, match="parity"):
         operator_term(np.zeros((1, 2, 2)), np.zeros((1, 2, 2)), parity=0)
-    with pytest.raises(InvalidInput, match="as many slices"):
+    with pytest.raises(InvalidInput, match="as many operators"):
         operator_term(np.zeros((2, 2, 2)), np.zeros((1, 2, 2)))

@@ -56,14 +56,14 @@ def features(seed=1):
     return rng.normal(size=(N, R)), rng.normal(size=(N, R))
 
 
-def slices(basis, F):
+def operators(basis, F):
     return unpack_operators(multiplication_operators(basis, F))
 
 
 def energy(source, target, F_s, F_t):
     terms = {
         "descriptors": descriptor_term(source, F_s, target, F_t),
-        "commutativity": operator_term(slices(source, F_s), slices(target, F_t)),
+        "commutativity": operator_term(operators(source, F_s), operators(target, F_t)),
         "laplacian": laplacian_term(source, target),
     }
     return Energy(terms, {"descriptors": 3.0, "commutativity": 0.5, "laplacian": 1.0})
@@ -183,7 +183,13 @@ def robust(case, name, width=0.5):
     source, target, F_s, F_t, E = case
     groups = np.array([0, 0, 1, 1, 2, 2, 3, -1, -1])
     data = RobustData(
-        source.project(F_s), target.project(F_t), groups, Loss(name), slices(source, F_s), slices(target, F_t), 0.2
+        source.project(F_s),
+        target.project(F_t),
+        groups,
+        Loss(name),
+        operators(source, F_s),
+        operators(target, F_t),
+        0.2,
     )
     return data.scaled(E.rhs(), width)
 
@@ -230,7 +236,7 @@ def test_squared_loss_is_the_least_squares_term(case):
     plain = descriptor_term(source, F_s, target, F_t)
     term = data.majorizer(plain.rhs())
     C = plain.rhs()
-    commuting = operator_term(slices(source, F_s), slices(target, F_t))
+    commuting = operator_term(operators(source, F_s), operators(target, F_t))
     wanted = plain.apply(C) + 0.2 * commuting.apply(C)
     np.testing.assert_allclose(to_numpy(term.apply(C)), to_numpy(wanted), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(to_numpy(term.rhs()), to_numpy(plain.rhs()), rtol=1e-12, atol=1e-12)

@@ -62,18 +62,18 @@ def minimum(parts, weights, bases):
 
 TERMS = {
     "descriptors": lambda s, t, F, G: descriptor_term(s, F, t, G),
-    "slices": lambda s, t, F, G: operator_term(_operators(s, F), _operators(t, G)),
-    "antisymmetric slices": lambda s, t, F, G: operator_term(_skew(_operators(s, F)), _skew(_operators(t, G)), -1),
+    "operators": lambda s, t, F, G: operator_term(_operators(s, F), _operators(t, G)),
+    "antisymmetric operators": lambda s, t, F, G: operator_term(_skew(_operators(s, F)), _skew(_operators(t, G)), -1),
     "kernel descriptors": lambda s, t, F, G: kernel_descriptor_term(Gaussian(0.3), s, F, t, G, block=5),
     "hadamard": lambda s, t, F, G: hadamard_term(Gaussian(0.3), s, F, t, G, block=5),
     "elementwise": lambda s, t, F, G: Elementwise(t.project(G**2)[:, :1] ** 2 + s.project(F**2)[:, :1].T ** 2),
 }
 
 
-def _skew(slices):
-    k = slices.shape[1]
-    sign = torch.triu(torch.ones(k, k, dtype=slices.dtype), 1)
-    return slices * (sign - sign.T)
+def _skew(operators):
+    k = operators.shape[1]
+    sign = torch.triu(torch.ones(k, k, dtype=operators.dtype), 1)
+    return operators * (sign - sign.T)
 
 
 @pytest.mark.parametrize("name", TERMS)
@@ -121,7 +121,7 @@ def test_every_kernel(name, case):
 
 @pytest.mark.parametrize("name", [name for name in KERNELS if name not in ("tanh", "linear", "polynomial")])
 def test_features_of_samples(name, case):
-    """The way that learning goes: Nyström features, slices, a positive definite energy."""
+    """The way that learning goes: Nyström features, operators, a positive definite energy."""
     source, target, F, G = case
     build, numbers = KERNELS[name]
 

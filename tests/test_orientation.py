@@ -62,11 +62,11 @@ def test_takes_the_antisymmetric_part_where_there_is_a_boundary(rng):
 
 def test_antisymmetric_and_linear(small_mesh, small_basis, rng):
     functions = rng.normal(size=(len(small_mesh.vertices), 3))
-    slices = orientation_operators(small_mesh, small_basis, functions)
-    assert slices.shape == (3, 40, 40)
-    np.testing.assert_array_equal(slices, -slices.transpose(0, 2, 1))
+    operators = orientation_operators(small_mesh, small_basis, functions)
+    assert operators.shape == (3, 40, 40)
+    np.testing.assert_array_equal(operators, -operators.transpose(0, 2, 1))
     mixed = orientation_operators(small_mesh, small_basis, functions @ np.array([[2.0], [-1.0], [0.5]]))[0]
-    np.testing.assert_allclose(mixed, 2 * slices[0] - slices[1] + 0.5 * slices[2], atol=1e-9)
+    np.testing.assert_allclose(mixed, 2 * operators[0] - operators[1] + 0.5 * operators[2], atol=1e-9)
     coefficients = rng.normal(size=(40, 2))
     combined = np.tensordot(coefficients.T, orientation_operators(small_mesh, small_basis, small_basis.functions), 1)
     lifted = orientation_operators(small_mesh, small_basis, small_basis.reconstruct(coefficients))
@@ -75,11 +75,11 @@ def test_antisymmetric_and_linear(small_mesh, small_basis, rng):
 
 def test_constants_and_the_function_itself_are_annihilated(small_mesh, small_basis):
     phi = small_basis.functions
-    slices = orientation_operators(small_mesh, small_basis, np.column_stack([np.ones(len(phi)), phi[:, 5]]))
-    np.testing.assert_allclose(slices[0], 0, atol=1e-10)
-    np.testing.assert_allclose(slices[1][:, 5], 0, atol=1e-10)  # ∇w × ∇w
-    np.testing.assert_allclose(slices[1][:, 0], 0, atol=1e-8)  # the gradient of a constant
-    assert np.abs(slices[1]).max() > 1
+    operators = orientation_operators(small_mesh, small_basis, np.column_stack([np.ones(len(phi)), phi[:, 5]]))
+    np.testing.assert_allclose(operators[0], 0, atol=1e-10)
+    np.testing.assert_allclose(operators[1][:, 5], 0, atol=1e-10)  # ∇w × ∇w
+    np.testing.assert_allclose(operators[1][:, 0], 0, atol=1e-8)  # the gradient of a constant
+    assert np.abs(operators[1]).max() > 1
 
 
 def test_a_mirror_flips_the_sign(small_mesh):
@@ -126,7 +126,7 @@ def test_on_the_sphere_it_is_rotation_about_an_axis():
     basis = Basis(np.full(3, 2.0), sphere.vertices * scale, np.full(3000, 4 * np.pi / 3000))
     symbol = np.zeros((3, 3, 3))
     for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        # n · (∇x_b × ∇x_c) = x_a: entry (i, j) of slice s is ∫ φᵢ n · (∇x_s × ∇φⱼ).
+        # n · (∇x_b × ∇x_c) = x_a: entry (i, j) of operator s is ∫ φᵢ n · (∇x_s × ∇φⱼ).
         symbol[b, a, c], symbol[c, a, b] = 1, -1
     np.testing.assert_allclose(orientation_operators(sphere, basis, sphere.vertices), symbol, atol=0.005)
 
@@ -151,9 +151,9 @@ def test_threads_and_libraries_agree(convert, rng):
     plainly = orientation_operators(mesh, basis, functions, threads=1)
     np.testing.assert_array_equal(plainly, orientation_operators(mesh, basis, functions, threads=3))
     other = convert(basis)
-    slices = orientation_operators(mesh, other, functions)
-    assert type(slices) is type(other.functions)
-    np.testing.assert_allclose(np.from_dlpack(slices), plainly, atol=1e-12)
+    operators = orientation_operators(mesh, other, functions)
+    assert type(operators) is type(other.functions)
+    np.testing.assert_allclose(np.from_dlpack(operators), plainly, atol=1e-12)
 
 
 def test_refuses_what_does_not_fit(small_mesh, small_basis):

@@ -27,14 +27,14 @@ def terms(rng, asarray, convert):
     source, target = (convert(b) for b in bases)
     W_s, W_t = asarray(rng.normal(size=(30, R))), asarray(rng.normal(size=(25, R)))
 
-    def slices(k, parity):
+    def operators(k, parity):
         X = rng.normal(size=(R, k, k))
         return asarray(X + parity * X.transpose(0, 2, 1))
 
     return {
         "descriptors": descriptor_term(source, W_s, target, W_t),
-        "slices": operator_term(slices(K_S, 1), slices(K_T, 1)),
-        "orientation": operator_term(slices(K_S, -1), slices(K_T, -1), parity=-1),
+        "operators": operator_term(operators(K_S, 1), operators(K_T, 1)),
+        "orientation": operator_term(operators(K_S, -1), operators(K_T, -1), parity=-1),
         "hadamard": hadamard_term(Gaussian(0.3), source, W_s, target, W_t, block=7),
         "laplacian": laplacian_term(source, target),
     }
@@ -50,7 +50,7 @@ def test_diagonal_in_other_bases_is_that_of_the_rotated_operator(terms, rng, asa
 
 
 def test_sides_are_what_is_left_without_the_coupling(rng):
-    """With slices on one side alone the operator is its one-sided part."""
+    """With operators on one side alone the operator is its one-sided part."""
     C = rng.normal(size=(K_T, K_S))
 
     def symmetric(k):

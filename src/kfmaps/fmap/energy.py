@@ -91,7 +91,7 @@ class Energy:
 
     def breakdown(self, C: Array) -> dict[str, float]:
         """Return the weighted value of each term at ``C``; they add up to ``value(self, C)``."""
-        # With slices in single precision a value of zero may come out a little below.
+        # With operators in single precision a value of zero may come out a little below.
         known = ((name, weight, self.terms[name]) for name, weight in self.weights.items())
         return {name: weight * max(value(term, C), 0.0) if weight else 0.0 for name, weight, term in known}
 

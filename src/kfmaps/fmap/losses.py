@@ -95,8 +95,8 @@ class RobustData:
     coefficients_t: Array  # (k_t, r): ``q_i``
     groups: np.ndarray  # (r,): the group of each column; a group below zero keeps the squared loss
     loss: Loss
-    slices_s: Array | None = None  # (r, k_s, k_s): ``X_i``, symmetric
-    slices_t: Array | None = None  # (r, k_t, k_t): ``Y_i``
+    operators_s: Array | None = None  # (r, k_s, k_s): ``X_i``, symmetric
+    operators_t: Array | None = None  # (r, k_t, k_t): ``Y_i``
     commutativity: float = 0.0  # ``ν``
     sizes: np.ndarray | None = None  # (g,): ``s_g``, for a loss of relative residuals; ``None`` is 1 for all
 
@@ -127,11 +127,11 @@ class RobustData:
         weighted = P_s * w[None, :]
         total = 0.5 * float(namespace(P_t).sum(P_t * P_t * w[None, :]))
         data: Term = source_term(weighted @ P_s.T, P_t @ weighted.T, total)
-        if self.slices_s is None or self.slices_t is None or not self.commutativity:
+        if self.operators_s is None or self.operators_t is None or not self.commutativity:
             return data
         root = namespace(w).sqrt(w)[:, None, None]
-        terms = {"data": data, "slices": operator_term(root * self.slices_s, root * self.slices_t)}
-        return Energy(terms, {"data": 1.0, "slices": self.commutativity})
+        terms = {"data": data, "operators": operator_term(root * self.operators_s, root * self.operators_t)}
+        return Energy(terms, {"data": 1.0, "operators": self.commutativity})
 
     def _relative(self, e: np.ndarray) -> np.ndarray:
         return e if self.sizes is None else e / self.sizes
@@ -140,8 +140,8 @@ class RobustData:
         xp = namespace(C)
         residual = C @ self.coefficients_s - self.coefficients_t
         e = xp.sum(residual * residual, axis=0)
-        if self.slices_s is not None and self.commutativity:
-            difference = C @ self.slices_s - self.slices_t @ C
+        if self.operators_s is not None and self.commutativity:
+            difference = C @ self.operators_s - self.operators_t @ C
             e = e + self.commutativity * xp.sum(difference * difference, axis=(1, 2))
         return to_numpy(e)
 

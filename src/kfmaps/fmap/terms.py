@@ -152,21 +152,21 @@ def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t:
 
 @dataclass(frozen=True, eq=False)
 class OperatorCommutativity(TwoSidedTerm):
-    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`operator_term`.
+    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the operators at hand; made by :func:`operator_term`.
 
-    ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the orientation
-    operators). The slices lie in two layouts that turn one application into two matrix products, in the precision that
+    ``parity`` is +1 for symmetric operators (multiplication by a function), −1 for antisymmetric ones (the orientation
+    operators). They lie in two layouts that turn one application into two matrix products, in the precision that
     they are stored in; the Gram matrices, without which small differences would be lost, are not rounded.
     """
 
-    left: Array  # (k_t · r, k_t): the target's slices, row a of slice i at a·r + i
-    right: Array  # (r · k_s, k_s): the source's slices, one below the other
-    cross_diagonal: Array  # zero where the slices are antisymmetric, as in every basis
+    left: Array  # (k_t · r, k_t): the target's operators, row a of operator i at a·r + i
+    right: Array  # (r · k_s, k_s): the source's operators, one below the other
+    cross_diagonal: Array  # zero where the operators are antisymmetric, as in every basis
     parity: int
 
     @property
     def count(self) -> int:
-        """Number of slices, r."""
+        """Number of operators, r."""
         return int(self.right.shape[0] // self.right.shape[1])
 
     def apply(self, C: Array) -> Array:
@@ -184,12 +184,14 @@ class OperatorCommutativity(TwoSidedTerm):
         return of_t.T @ of_s
 
 
-def operator_term(slices_s: Array, slices_t: Array, parity: int = 1, single: bool = False) -> OperatorCommutativity:
+def operator_term(
+    operators_s: Array, operators_t: Array, parity: int = 1, single: bool = False
+) -> OperatorCommutativity:
     """Return the commutativity with operators, ``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²``.
 
     Parameters
     ----------
-    slices_s, slices_t : (r, k_s, k_s), (r, k_t, k_t)
+    operators_s, operators_t : (r, k_s, k_s), (r, k_t, k_t)
     parity : {1, -1}
         Whether they are symmetric (multiplication by a function) or antisymmetric (orientation operators).
     single : bool
@@ -199,20 +201,20 @@ def operator_term(slices_s: Array, slices_t: Array, parity: int = 1, single: boo
     Raises
     ------
     InvalidInput
-        Unless both have the same number of square slices and ``parity`` is 1 or −1.
+        Unless both have the same number of square operators and ``parity`` is 1 or −1.
     """
-    xp = namespace(slices_s, slices_t)
-    r, k_s, _ = slices_s.shape
-    k_t = slices_t.shape[1]
-    check(slices_s, "slices_s", shape=(r, k_s, k_s))
-    check(slices_t, "slices_t", shape=(r, k_t, k_t), remedy="give as many slices on both shapes")
+    xp = namespace(operators_s, operators_t)
+    r, k_s, _ = operators_s.shape
+    k_t = operators_t.shape[1]
+    check(operators_s, "operators_s", shape=(r, k_s, k_s))
+    check(operators_t, "operators_t", shape=(r, k_t, k_t), remedy="give as many operators on both shapes")
     if parity not in (1, -1):
-        raise refuse("parity", "1 (symmetric slices) or -1 (antisymmetric)", repr(parity), "choose one")
-    right = xp.reshape(slices_s, (r * k_s, k_s))
-    left = xp.reshape(xp.permute_dims(slices_t, (1, 0, 2)), (k_t * r, k_t))
+        raise refuse("parity", "1 (symmetric operators) or -1 (antisymmetric)", repr(parity), "choose one")
+    right = xp.reshape(operators_s, (r * k_s, k_s))
+    left = xp.reshape(xp.permute_dims(operators_t, (1, 0, 2)), (k_t * r, k_t))
     # Xᵀ = parity X, so that Σ X Xᵀ = parity Σ X X is a Gram matrix of the stacked rows.
-    flat_t = xp.reshape(slices_t, (r * k_t, k_t))
-    cross = xp.linalg.diagonal(slices_t).T @ xp.linalg.diagonal(slices_s)
+    flat_t = xp.reshape(operators_t, (r * k_t, k_t))
+    cross = xp.linalg.diagonal(operators_t).T @ xp.linalg.diagonal(operators_s)
     grams = right.T @ right, flat_t.T @ flat_t
     if single:
         left, right = xp.astype(left, xp.float32), xp.astype(right, xp.float32)

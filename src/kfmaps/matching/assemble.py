@@ -64,7 +64,7 @@ class FitProblem:
         return sum(D.shape[0] for D in sides) if self.features is None else int(self.features.source.shape[1])
 
     @property
-    def slices(self) -> int:
+    def n_operators(self) -> int:
         """Multiplication operators left after compression."""
         return 0 if self.multiplications is None else int(self.multiplications[0].shape[0])
 

@@ -152,7 +152,7 @@ def _fit_of(one: Fit | None, C: np.ndarray, points: np.ndarray | None) -> MatchF
     residuals = np.asarray(one.solution.residuals, dtype=np.float64)
     residuals = residuals / (residuals[0] if len(residuals) and residuals[0] > 0 else 1.0)
     status, steps = one.solution.status, one.solution.steps
-    facts = residuals, one.energies, one.kernel, one.rank, one.slices, one.weights
+    facts = residuals, one.energies, one.kernel, one.rank, one.n_operators, one.weights
     return MatchFit(C, points, len(one.functional_map), status, steps, *facts)
 
 

@@ -41,7 +41,7 @@ class Fit:
         Weighted value of each term at the minimiser.
     rank : int
         Features of the kernel that were kept.
-    slices : int
+    n_operators : int
         Multiplication operators left after compression.
     kernel : str
         With every γ a number.
@@ -59,7 +59,7 @@ class Fit:
     solution: Solution
     energies: dict[str, float]
     rank: int
-    slices: int
+    n_operators: int
     kernel: str
     config: Config
     seconds: dict[str, float] = field(default_factory=dict)
@@ -119,7 +119,7 @@ def minimize_problem(task: FitProblem, start: Array | None = None, told: Progres
         solution=solution,
         energies=forth.breakdown(solution.value),
         rank=task.rank,
-        slices=task.slices,
+        n_operators=task.n_operators,
         kernel=describe_kernel(task.kernel),
         config=config,
         back=back,
