@@ -3,7 +3,7 @@
 At the paper's size, two shapes of 2,529 vertices, k = 100, rank 400 and a Gaussian kernel. Three Hadamard forms: the
 literal one, all three products of equations (10) to (12) worked out at every application from the features; the
 coupling alone, with what does not depend on C worked out before, in row blocks; and that with the kernel matrix kept
-in memory. Then one operator for each feature, and operators after compression. Seconds are CPU seconds on one thread, the
+in memory. Then one for each feature, and operators after compression. Seconds are CPU seconds on one thread, the
 median of several; GFlop/s count the multiplications and additions of the matrix products, and the peak is that of one
 product of 2,000 x 2,000 matrices in the same run. The error is ``‖A(C) − A_exact(C)‖ / ‖A_exact(C)‖`` against the
 literal form.

@@ -99,7 +99,7 @@ def timed_assembly(options: Options, config: Config) -> Assembled:
 
 
 def timings(options: Options, config: Config) -> list[dict[str, Any]]:
-    """Return seconds of one application of the operator in each form, and the difference of its result to operators'."""
+    """Return seconds of one application of the Hessian in each form, and how far its result is from the operators'."""
     exact = timed_assembly(options, config)
     compressed = timed_assembly(options, replace(config, operator_rtol=recommended(100).operator_rtol))
     rest = {n: w for n, w in exact.energy.weights.items() if n != "commutativity"}
@@ -162,8 +162,8 @@ def conclusions(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -
     gaps = [float(row["relative difference"]) for row in times]
     lines.append(
         f"One application of the operator takes {written:.3f} s as figure 1 writes it, {reused:.3f} s when what does "
-        f"not change is precomputed, and {ours:.3f} s with operators: {written / ours:.1f} and {reused / ours:.1f} times "
-        f"faster, in the same run on one thread. Compressed operators: {fewer:.3f} s; the whole kernel: {whole:.3f} s. "
+        f"not change is precomputed, and {ours:.3f} s as matrices: {written / ours:.1f} and {reused / ours:.1f} times "
+        f"faster, in the same run on one thread. Compressed: {fewer:.3f} s; the whole kernel: {whole:.3f} s. "
         f"The paper's took {PAPER_SECONDS} s on a machine of 2018."
     )
     lines.append(

@@ -18,8 +18,8 @@ from kfmaps.geometry.mesh import Mesh
 def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
     """Return the matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
 
-    Entry (i, j) of operator s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It depends
-    on the positions of the vertices through the basis alone: gradients and area cancel.
+    Entry (i, j) of operator s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It
+    depends on the positions of the vertices through the basis alone: gradients and area cancel.
 
     A functional map C that keeps orientation and carries wₛ to w'ₛ has ``C Ω_w = Ω_w' C``; one that reverses it has ``C
     Ω_w = −Ω_w' C``.
@@ -31,7 +31,7 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: i
     basis : Basis
         Of the mesh, k functions.
     functions : (n, r)
-        One function a column, values at the vertices. The operators are linear in them: for functions with coefficients c
+        One function a column, values at the vertices. They are linear in these: for functions with coefficients c
         (k, r) in the basis, when r > k, combine ``orientation_operators(mesh, basis, basis.functions)`` by c.
     threads : int, optional
         Python threads; every available core when not given.
