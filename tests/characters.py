@@ -1,7 +1,15 @@
-"""A character made from formulas: the creature with a skeleton, skinning weights, shape keys and a texture in two
-charts, front and back, whose picture has no visible seam."""
+"""GLB files and their trees, and a character made from formulas.
+
+It is the creature with a skeleton, skinning weights, shape keys and a texture in two charts, front and back, whose
+picture has no visible seam.
+"""
 
 from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +18,21 @@ from kfmaps.datasets.skeleton import Body
 from kfmaps.geometry.mesh import Mesh, face_normals, vertex_normals
 from kfmaps.io.bake import encode_png
 from kfmaps.io.record import MeshFile, Picture, Skin
+
+
+def tree_of(glb: bytes) -> dict[str, Any]:
+    """The JSON part of a GLB file."""
+    return json.loads(glb[20 : 20 + int.from_bytes(glb[12:16], "little")])
+
+
+def changed(glb: bytes, edit: Callable[[Any], object]) -> bytes:
+    """A GLB file whose JSON part ``edit`` has altered."""
+    tree, rest = tree_of(glb), glb[20 + int.from_bytes(glb[12:16], "little") :]
+    edit(tree)
+    head = json.dumps(tree).encode()
+    head += b" " * (-len(head) % 4)
+    return b"glTF" + struct.pack("<III4s", 2, 20 + len(head) + len(rest), len(head), b"JSON") + head + rest
+
 
 LIMBS, BODY = CREATURE, Body(CREATURE)
 

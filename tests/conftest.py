@@ -10,7 +10,7 @@ import pkgutil
 import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import pytest
@@ -21,6 +21,7 @@ from kfmaps import MissingDependency
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.io.record import MeshFile
 
 pytest.register_assert_rewrite("chromium", "reviewing")  # they have fixtures: test modules name them as plugins
 
@@ -71,6 +72,20 @@ def small_mesh() -> Mesh:
 @pytest.fixture(scope="session")
 def small_basis(small_mesh: Mesh) -> Basis:
     return laplace_basis(small_mesh, 40)
+
+
+@pytest.fixture(scope="session")
+def poses() -> kfmaps.datasets.ExamplePair:
+    """Two poses of one creature of 1,500 vertices."""
+    return kfmaps.datasets.two_poses(1500, rng=2)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _coarse_pictures() -> Iterator[None]:
+    """Divide fewer triangles for pictures, whose drawing takes most of the time of what draws one."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("kfmaps.viz.surfaces._ENOUGH", 1000)
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -137,6 +152,20 @@ def interruptible() -> Iterator[None]:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+Value = TypeVar("Value")
+
+
+def known(value: Value | None) -> Value:
+    """Return what is not None."""
+    assert value is not None
+    return value
+
+
+def corner_uv(shape: MeshFile) -> np.ndarray:
+    """Return the texture coordinates (f, 3, 2) of all corners of faces."""
+    return known(shape.uv)[known(shape.uv_faces)]
 
 
 def exists(name: str) -> bool:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
-import struct
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,7 +12,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from conftest import fibonacci_sphere
+from characters import changed
+from conftest import corner_uv, fibonacci_sphere, known
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
@@ -84,14 +83,14 @@ def at_points(source: MeshFile, mesh: Mesh) -> PointMap:
     return PointMap(found.faces, found.weights)
 
 
+def pixels_of(shape: MeshFile) -> np.ndarray:
+    return decode_picture(known(shape.picture))
+
+
 def colours_of(shape: MeshFile) -> tuple[np.ndarray, np.ndarray]:
     """The colours in the middle of each face of a textured shape, and where that is."""
-    assert shape.uv is not None
-    assert shape.uv_faces is not None
-    assert shape.picture is not None
-    pixels = decode_picture(shape.picture)
-    middle = shape.uv[shape.uv_faces].mean(axis=1)
-    return _sample_picture(pixels, middle), shape.mesh.vertices[shape.mesh.faces].mean(axis=1)
+    middle = shape.mesh.vertices[shape.mesh.faces].mean(axis=1)
+    return _sample_picture(pixels_of(shape), corner_uv(shape).mean(axis=1)), middle
 
 
 @pytest.mark.parametrize(
@@ -117,17 +116,14 @@ def test_a_grey_picture_of_sixteen_bits_is_read() -> None:
 def test_the_identity_gives_back_the_picture() -> None:
     """Every texel inside a face, when source and target are one and the same."""
     shape = own_atlas(fibonacci_sphere(60))
-    assert shape.uv is not None
-    assert shape.uv_faces is not None
     pixels = np.random.default_rng(1).integers(0, 256, (256, 256, 3)) / 255.0
     place = vertex_point_map(np.arange(60), shape.mesh)
     found = transfer_uv(shape, shape.mesh, place)
     assert not found.torn.any()
-    np.testing.assert_array_equal(found.uv[found.uv_faces], shape.uv[shape.uv_faces])
-    baked = transfer_texture(shape, shape, found, encode_png(pixels), 256).picture
-    assert baked is not None
-    _, texel, _ = _find_texels(shape.uv[shape.uv_faces], 256, 256)
-    rows = np.rint(255 * decode_picture(baked)).reshape(-1, 3)
+    np.testing.assert_array_equal(found.uv[found.uv_faces], corner_uv(shape))
+    baked = transfer_texture(shape, shape, found, encode_png(pixels), 256)
+    _, texel, _ = _find_texels(corner_uv(shape), 256, 256)
+    rows = np.rint(255 * pixels_of(baked)).reshape(-1, 3)
     np.testing.assert_array_equal(rows[texel], np.rint(255 * pixels.reshape(-1, 3))[texel])
 
 
@@ -147,8 +143,7 @@ def test_a_picture_goes_around_a_seam_without_a_scar(own: bool) -> None:
     assert np.quantile(off, 0.99) < 0.06
     assert off.max() < 0.12
     # Beyond the charts too there is no colour that is not next to them.
-    assert made.picture is not None
-    assert decode_picture(made.picture).sum(axis=2).min() > 0.2
+    assert pixels_of(made).sum(axis=2).min() > 0.2
 
 
 def test_only_faces_over_a_seam_are_drawn_anew() -> None:
@@ -157,14 +152,11 @@ def test_only_faces_over_a_seam_are_drawn_anew() -> None:
     found = transfer_uv(source, mesh, at_points(source, mesh))
     pixels = np.random.default_rng(0).integers(0, 256, (1024, 1024, 3)) / 255.0
     made = transfer_texture(source, MeshFile(mesh), found, encode_png(pixels))
-    assert made.picture is not None
-    assert made.uv is not None
-    assert made.uv_faces is not None
-    after = decode_picture(made.picture)
+    after = pixels_of(made)
     rows = len(after) - 1024
     assert rows > 0
     np.testing.assert_allclose(after[:1024], pixels, atol=1e-6)
-    corners = made.uv[made.uv_faces] * [1, len(after) / 1024] - [0, rows / 1024]
+    corners = corner_uv(made) * [1, len(after) / 1024] - [0, rows / 1024]
     kept = corners[:, :, 1].max(axis=1) > 0
     x, y, z = mesh.vertices.T
     longitude = np.ptp(np.arctan2(y, x)[mesh.faces], axis=1)
@@ -174,19 +166,17 @@ def test_only_faces_over_a_seam_are_drawn_anew() -> None:
     np.testing.assert_allclose(gap, np.rint(gap), atol=1e-9)
     # No face reaches across the picture, but those around a pole.
     around = np.abs(z[mesh.faces]).max(axis=1) < 0.9
-    assert np.ptp(made.uv[made.uv_faces[around]], axis=1).max() < 0.3
+    assert np.ptp(corner_uv(made)[around], axis=1).max() < 0.3
 
 
 def test_a_texture_that_repeats_is_drawn_in_one_copy() -> None:
     """Rows below the picture end its repetition: coordinates from 0 to 3 move into the first copy."""
     source, mesh = globe(900), fibonacci_sphere(700)
-    assert source.uv is not None
-    source = MeshFile(source.mesh, None, source.uv * [3, 1], source.uv_faces)
+    source = replace(source, uv=known(source.uv) * [3, 1])
     found = transfer_uv(source, mesh, at_points(source, mesh))
     made = transfer_texture(source, MeshFile(mesh), found, encode_png(round_picture()))
-    assert made.uv is not None
-    assert made.uv.min() >= 0
-    assert made.uv.max() <= 1
+    assert corner_uv(made).min() >= 0
+    assert corner_uv(made).max() <= 1
     colours, at = colours_of(made)
     angle = 3 * (np.arctan2(at[:, 1], at[:, 0]) + np.pi)
     true = np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle)], axis=1)
@@ -199,15 +189,12 @@ def test_the_size_of_the_picture_is_that_asked_for() -> None:
     found = transfer_uv(source, mesh, at_points(source, mesh))
     grey = encode_png(np.full((100, 200, 3), 0.5))
     for size, width in ((None, 1024), (300, 300)):
-        made = transfer_texture(source, MeshFile(mesh), found, grey, size).picture
-        assert made is not None
-        pixels = decode_picture(made)
+        pixels = pixels_of(transfer_texture(source, MeshFile(mesh), found, grey, size))
         assert pixels.shape[1] == width
         assert pixels.shape[0] > width // 2
         np.testing.assert_allclose(pixels, 0.5, atol=0.01)
-        own = transfer_texture(source, own_atlas(mesh), found, grey, size).picture
-        assert own is not None
-        assert decode_picture(own).shape == (width, width, 3)
+        own = transfer_texture(source, own_atlas(mesh), found, grey, size)
+        assert pixels_of(own).shape == (width, width, 3)
 
 
 def test_packed_triangles_keep_their_shape_and_apart() -> None:
@@ -235,17 +222,13 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
     source = globe()
     n = len(source.mesh.vertices)
     target = own_atlas(source.mesh)
-    assert target.uv is not None
-    assert target.uv_faces is not None
     points = np.arange(n)
     away = source.mesh.vertices[:, 2] > 0.5
     points[away] = -1
     places = as_map(vertex_point_map(np.arange(n), source.mesh), source.mesh)
     write_textured(tmp_path / "b.glb", source, target, replace(places, target_to_source=points))
-    found = read_mesh_file(tmp_path / "b.glb").picture
-    assert found is not None
-    picture = decode_picture(found)
-    face, texel, _ = _find_texels(target.uv[target.uv_faces], *picture.shape[:2])
+    picture = pixels_of(read_mesh_file(tmp_path / "b.glb"))
+    face, texel, _ = _find_texels(corner_uv(target), *picture.shape[:2])
     outside = away[source.mesh.faces].max(axis=1)[face]
     colours = picture.reshape(-1, 3)[texel]
     assert np.ptp(colours[outside], axis=0).max() == 0
@@ -258,9 +241,7 @@ def test_padding_is_the_nearest_colour() -> None:
     blue = np.zeros((8, 8, 3))
     blue[:, :, 2] = 1.0
     found = transfer_uv(target, mesh, vertex_point_map(np.arange(3), mesh))
-    picture = transfer_texture(target, target, found, encode_png(blue), 64).picture
-    assert picture is not None
-    assert (decode_picture(picture) == [0, 0, 1]).all()
+    assert (pixels_of(transfer_texture(target, target, found, encode_png(blue), 64)) == [0, 0, 1]).all()
 
 
 def test_an_atlas_whose_faces_share_space_gets_the_sources_coordinates(tmp_path: Path) -> None:
@@ -270,49 +251,28 @@ def test_an_atlas_whose_faces_share_space_gets_the_sources_coordinates(tmp_path:
     assert not can_bake(stacked)
     assert not can_bake(MeshFile(mesh))
     cells = own_atlas(mesh)
-    assert cells.uv is not None
-    assert cells.uv_faces is not None
-    half = len(mesh.faces) // 2
-    mirrored = np.concatenate([cells.uv_faces[:half], cells.uv_faces[: len(mesh.faces) - half]])
-    assert not can_bake(MeshFile(mesh, None, cells.uv, mirrored))
-    flat = MeshFile(mesh, None, np.zeros((1, 2)), np.zeros_like(mesh.faces))
-    assert not can_bake(flat)
+    half = known(cells.uv_faces)[: len(mesh.faces) // 2]
+    assert not can_bake(replace(cells, uv_faces=np.concatenate([half, half])))
+    assert not can_bake(MeshFile(mesh, None, np.zeros((1, 2)), np.zeros_like(mesh.faces)))
     with pytest.warns(KfmapsWarning, match="share"):
         write_textured(tmp_path / "b.glb", source, stacked, np.arange(len(mesh.vertices)))
-    back = read_mesh_file(tmp_path / "b.glb")
-    assert back.picture is not None
-    np.testing.assert_array_equal(np.rint(255 * decode_picture(back.picture)), grid_picture())
+    back = pixels_of(read_mesh_file(tmp_path / "b.glb"))
+    np.testing.assert_array_equal(np.rint(255 * back), grid_picture())
 
 
 def test_a_target_keeps_its_own_coordinates(tmp_path: Path) -> None:
     source, mesh = globe(), fibonacci_sphere(90)
     target = own_atlas(mesh)
-    assert target.uv is not None
-    assert target.uv_faces is not None
     red = encode_png(np.broadcast_to(np.array([1.0, 0, 0]), (4, 4, 3)))
-    source = MeshFile(source.mesh, None, source.uv, source.uv_faces, red)
+    source = replace(source, picture=red)
     points = np.linalg.norm(mesh.vertices[:, None] - source.mesh.vertices[None], axis=2).argmin(axis=1)
     for name in ("b.glb", "b.obj"):
         write_textured(tmp_path / name, source, target, points)
         back = read_mesh_file(tmp_path / name)
-        assert back.uv is not None
-        assert back.uv_faces is not None
-        np.testing.assert_allclose(back.uv[back.uv_faces], target.uv[target.uv_faces], atol=1e-6)
+        np.testing.assert_allclose(corner_uv(back), corner_uv(target), atol=1e-6)
     picture = decode_picture(Picture((tmp_path / "b.png").read_bytes(), "image/png"))
     assert picture.shape == (1024, 1024, 3)
     np.testing.assert_allclose(picture, np.broadcast_to([1.0, 0, 0], picture.shape))
-
-
-def changed(data: bytes, edit: Any) -> bytes:
-    """A GLB whose tree is edited."""
-    size = int.from_bytes(data[12:16], "little")
-    tree = json.loads(data[20 : 20 + size])
-    edit(tree)
-    text = json.dumps(tree).encode()
-    text += b" " * (-len(text) % 4)
-    rest = data[20 + size :]
-    head = struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON")
-    return head + text + rest
 
 
 @pytest.fixture(scope="module")
@@ -323,10 +283,8 @@ def glb() -> bytes:
 
 
 def test_a_texture_comes_in_as_it_went_out(glb: bytes, tmp_path: Path) -> None:
-    found = parse_gltf(glb, "a.glb").picture
-    assert found is not None
-    assert found.data == encode_png(grid_picture(32, 4)).data
-    assert found.kind == "image/png"
+    found = known(parse_gltf(glb, "a.glb").picture)
+    assert found == Picture(encode_png(grid_picture(32, 4)).data, "image/png")
 
     def elsewhere(tree: dict) -> None:
         tree["images"][0] = {"uri": "skin%20of%20a.png"}
@@ -385,11 +343,3 @@ def test_a_picture_cut_short_is_refused(glb: bytes) -> None:
 def test_a_picture_that_is_none_is_refused() -> None:
     with pytest.raises(InvalidInput, match="PNG or JPEG"):
         decode_picture(Picture(b"\x89PNG\r\n\x1a\nno more", "image/png"))
-
-
-def test_grey_pictures_have_three_channels() -> None:
-
-    buffer = io.BytesIO()
-    Image.fromarray(np.full((5, 7), 51, dtype=np.uint8)).save(buffer, format="png")
-    assert decode_picture(Picture(buffer.getvalue(), "image/png")).shape == (5, 7, 3)
-    np.testing.assert_allclose(decode_picture(Picture(buffer.getvalue(), "image/png")), 0.2)

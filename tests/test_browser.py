@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 from chromium import NASTY, Browser, Keys, needs_browser
 from kfmaps.cli.evaluation import Truth
 from kfmaps.config import Config
-from kfmaps.datasets import ExamplePair, two_poses
+from kfmaps.datasets import ExamplePair
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile
@@ -30,22 +30,17 @@ pytestmark = needs_browser
 CHOOSE_MAP = "const m = document.getElementById('map'); m.value = arguments[0]; m.dispatchEvent(new Event('change'))"
 
 
-@pytest.fixture(scope="module")
-def pair() -> ExamplePair:
-    return two_poses(1500)
-
-
 @pytest.fixture
-def page(browser: Browser, pair: ExamplePair, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Browser:
+def page(browser: Browser, poses: ExamplePair, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Browser:
     """The page of the true map, everything switched on, opened from the disk."""
-    n_t = len(pair.truth)
+    n_t = len(poses.truth)
     monkeypatch.setattr(result_pages, "vertex_errors", lambda *_: np.linspace(0, 0.2, n_t)[None])
-    monkeypatch.setattr(result_pages, "signatures", lambda *_: (pair.source.vertices, pair.target.vertices))
+    monkeypatch.setattr(result_pages, "signatures", lambda *_: (poses.source.vertices, poses.target.vertices))
     found = Match(
-        pair.truth,
+        poses.truth,
         functional_map=np.random.default_rng(0).normal(size=(20, 30)),
         local_confidence=np.linspace(0, 1, n_t),
-        alternatives=(np.roll(pair.truth, 1),),
+        alternatives=(np.roll(poses.truth, 1),),
         verdict="ambiguous",
         confidence=0.25,
         score=MatchScore(scores=(-1.5, -1.625)),
@@ -53,8 +48,8 @@ def page(browser: Browser, pair: ExamplePair, tmp_path: Path, monkeypatch: pytes
         seconds={"solve": 1.5},
         config=Config(kernel=Gaussian(500.0)),
     )
-    truth = Truth(pair.truth, np.arange(n_t))
-    html = match_page(found, pair.source, pair.target, (NASTY, "b"), truth=truth)
+    truth = Truth(poses.truth, np.arange(n_t))
+    html = match_page(found, poses.source, poses.target, (NASTY, "b"), truth=truth)
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "page.html").as_uri())
     return browser
@@ -78,44 +73,44 @@ def test_names_and_settings_are_only_text(page: Browser) -> None:
     assert page.complaints() == []
 
 
-def test_pointing_at_the_target_shows_its_match(page: Browser, pair: ExamplePair) -> None:
-    for vertex in page.visible("target", np.arange(0, len(pair.truth), 7), 4):
+def test_pointing_at_the_target_shows_its_match(page: Browser, poses: ExamplePair) -> None:
+    for vertex in page.visible("target", np.arange(0, len(poses.truth), 7), 4):
         page.point("target", vertex)
-        page.until(lambda v=vertex: page.text("readout").startswith(f"target {v} → source {pair.truth[v]},"))
-        assert page.run("return kfmaps.marks('source')") == [pair.truth[vertex]]
+        page.until(lambda v=vertex: page.text("readout").startswith(f"target {v} → source {poses.truth[v]},"))
+        assert page.run("return kfmaps.marks('source')") == [poses.truth[vertex]]
         assert page.run("return kfmaps.marks('target')") == [vertex]
 
 
-def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, pair: ExamplePair) -> None:
-    count = np.bincount(pair.truth, minlength=len(pair.source.vertices))
+def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, poses: ExamplePair) -> None:
+    count = np.bincount(poses.truth, minlength=len(poses.source.vertices))
     for vertex in page.visible("source", np.flatnonzero(count >= 2), 3):
-        landing = np.flatnonzero(pair.truth == vertex)
+        landing = np.flatnonzero(poses.truth == vertex)
         page.point("source", vertex)
         text = f"source {vertex} ← target {', '.join(map(str, landing))}"
         page.until(lambda text=text: page.text("readout") == text)
         assert sorted(page.run("return kfmaps.marks('target')")) == landing.tolist()
 
 
-def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Browser, pair: ExamplePair) -> None:
-    missed = np.setdiff1d(np.arange(len(pair.source.vertices)), pair.truth)
+def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Browser, poses: ExamplePair) -> None:
+    missed = np.setdiff1d(np.arange(len(poses.source.vertices)), poses.truth)
     page.point("source", page.visible("source", missed, 1)[0])
     told = page.until(lambda: re.search(r"← target (\d+).*nearest that has one is (\d+)", page.text("readout")))
-    assert pair.truth[int(told[1])] == int(told[2])
+    assert poses.truth[int(told[1])] == int(told[2])
 
 
-def test_runner_up_has_its_own_matches(page: Browser, pair: ExamplePair) -> None:
+def test_runner_up_has_its_own_matches(page: Browser, poses: ExamplePair) -> None:
     page.run(CHOOSE_MAP, "1")
-    vertex = page.visible("target", np.arange(len(pair.truth)), 1)[0]
+    vertex = page.visible("target", np.arange(len(poses.truth)), 1)[0]
     page.point("target", vertex, click=True)
-    page.until(lambda: page.text("pinned").startswith(f"target {vertex} → source {np.roll(pair.truth, 1)[vertex]}"))
+    page.until(lambda: page.text("pinned").startswith(f"target {vertex} → source {np.roll(poses.truth, 1)[vertex]}"))
 
 
-def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
+def test_colours_and_texture_are_carried_by_the_map(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:
     views = {}
-    identity = np.arange(len(pair.source.vertices))
+    identity = np.arange(len(poses.source.vertices))
     for name, points in (("same", identity), ("other", identity[::-1].copy())):
         page = tmp_path / f"{name}.html"
-        page.write_text(match_page(Match(points), pair.source, pair.source, descriptors=False), encoding="utf-8")
+        page.write_text(match_page(Match(points), poses.source, poses.source, descriptors=False), encoding="utf-8")
         browser.open(page.as_uri())
         if browser.element("#aligned").is_selected():
             browser.element("#aligned").click()  # both lie alike, so the pictures differ by the map alone
@@ -163,12 +158,12 @@ def test_everything_can_be_reached_by_keyboard_and_has_a_name(page: Browser) -> 
     assert "from 1 to 0.01 in 2 steps" in page.element(".chart").accessible_name
 
 
-def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, pair: ExamplePair) -> None:
+def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, poses: ExamplePair) -> None:
     page.element("#goto-target").send_keys("17", Keys.ENTER)
-    page.until(lambda: page.text("pinned").startswith(f"target 17 → source {pair.truth[17]}"))
+    page.until(lambda: page.text("pinned").startswith(f"target 17 → source {poses.truth[17]}"))
     page.element("#goto-target").send_keys(Keys.BACKSPACE * 2, "999999", Keys.ENTER)
     page.until(
-        lambda: page.text("message") == f"The target has no vertex 999999: they go from 0 to {len(pair.truth) - 1}."
+        lambda: page.text("message") == f"The target has no vertex 999999: they go from 0 to {len(poses.truth) - 1}."
     )
     assert page.text("pinned").startswith("target 17 "), "what was kept stays"
     assert page.element("#goto-target").get_attribute("aria-invalid") == "true"
@@ -176,7 +171,7 @@ def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, 
     view.send_keys(Keys.ENTER)
     told = re.match(r"target (\d+) → source (\d+)", page.text("pinned"))
     assert told is not None, "the middle of the view is on the creature"
-    assert pair.truth[int(told[1])] == int(told[2])
+    assert poses.truth[int(told[1])] == int(told[2])
     view.send_keys(Keys.ESCAPE)
     assert page.text("pinned") == ""
 
@@ -187,12 +182,12 @@ PLACES = "return ['source', 'target'].map((s) => document.getElementById(`view-$
 @pytest.mark.parametrize(("mark", "ground"), [("true", 245), ("false", 20)])
 @pytest.mark.parametrize("width", [420, 1200])
 def test_in_a_cell_of_a_notebook(
-    browser: Browser, pair: ExamplePair, tmp_path: Path, width: int, mark: str, ground: int
+    browser: Browser, poses: ExamplePair, tmp_path: Path, width: int, mark: str, ground: int
 ) -> None:
     """Both views beside each other, nothing to scroll, light or dark as the notebook is, whatever the system is."""
     features = [{"name": "prefers-color-scheme", "value": "light" if mark == "false" else "dark"}]
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-    html = cell_html(match_page(Match(pair.truth), pair.source, pair.target, (NASTY, "b"), descriptors=False), NASTY)
+    html = cell_html(match_page(Match(poses.truth), poses.source, poses.target, (NASTY, "b"), descriptors=False), NASTY)
     cell = f'<!DOCTYPE html><body data-jp-theme-light="{mark}"><div style="width: {width}px">{html}</div></body>'
     (tmp_path / "notebook.html").write_text(cell, encoding="utf-8")
     browser.driver.get_log("browser")
@@ -249,11 +244,11 @@ def test_errors_have_a_scale_with_its_unit(page: Browser) -> None:
     assert (page.text("legend-low"), page.text("legend-high")) == ("0", "20")
 
 
-def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pair: ExamplePair, tmp_path: Path) -> None:
-    half = pair.truth.copy()
-    upper = pair.target.vertices[:, 1] > np.median(pair.target.vertices[:, 1])
+def test_difference_is_to_the_runner_up(page: Browser, poses: ExamplePair, tmp_path: Path) -> None:
+    half = poses.truth.copy()
+    upper = poses.target.vertices[:, 1] > np.median(poses.target.vertices[:, 1])
     half[upper] = half[upper][::-1]
-    html = match_page(Match(pair.truth, alternatives=(half,)), pair.source, pair.target, descriptors=False)
+    html = match_page(Match(poses.truth, alternatives=(half,)), poses.source, poses.target, descriptors=False)
     (tmp_path / "half.html").write_text(html, encoding="utf-8")
     page.open((tmp_path / "half.html").as_uri())
     page.mode("difference")
@@ -268,23 +263,23 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     assert bottom[len(bottom) // 2 :].mean() < 0.001
 
 
-def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
+def test_confidence_is_of_the_map_that_is_shown(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:
     """A part that is sent elsewhere is dark, the rest bright; the alternative, which is right, is bright all over."""
-    side = pair.target.vertices[:, 0]
+    side = poses.target.vertices[:, 0]
     part = side > np.quantile(side, 0.93)
-    wrong = pair.truth.copy()
+    wrong = poses.truth.copy()
     wrong[part] = np.random.default_rng(0).permutation(wrong[part])
-    found = Match(wrong, alternatives=(pair.truth,))
-    html = match_page(found, pair.source, pair.target, ("a", "b"), descriptors=False)
+    found = Match(wrong, alternatives=(poses.truth,))
+    html = match_page(found, poses.source, poses.target, ("a", "b"), descriptors=False)
     (tmp_path / "sure.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "sure.html").as_uri())
     browser.mode("confidence")
     assert (browser.text("legend-low"), browser.text("legend-high")) == ("0 %", "100 %")
     assert "local fit" in browser.text("legend-text")
-    expected = {"0": wrong, "1": pair.truth}
+    expected = {"0": wrong, "1": poses.truth}
     for chosen, points in expected.items():
         browser.run(CHOOSE_MAP, chosen)
-        sure = local_confidence(pair.source, pair.target, points)
+        sure = local_confidence(poses.source, poses.target, points)
         for vertex in browser.visible("target", np.flatnonzero(part), 1) + browser.visible("target", np.arange(300), 2):
             browser.point("target", vertex)
             begin = f"target {vertex} → source {points[vertex]}, local fit "
@@ -328,15 +323,15 @@ def test_verdict_comes_first_and_an_alternative_says_that_it_is_one(page: Browse
     assert page.text("facts") == best
 
 
-def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
+def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:
     """However the target lies, and whatever the map says: a map that takes back for front is seen to do so."""
-    lying = Mesh(pair.source.vertices[:, [0, 2, 1]] * [1, -1, 1], pair.source.faces)  # a quarter round x
-    turned = pair.source.vertices * [-1, 1, -1]
-    back_for_front = np.asarray(KDTree(pair.source.vertices).query(turned)[1])
+    lying = Mesh(poses.source.vertices[:, [0, 2, 1]] * [1, -1, 1], poses.source.faces)  # a quarter round x
+    turned = poses.source.vertices * [-1, 1, -1]
+    back_for_front = np.asarray(KDTree(poses.source.vertices).query(turned)[1])
     identity = np.arange(len(turned))
-    for name, target, points in (("lying", lying, identity), ("back", pair.source, back_for_front)):
+    for name, target, points in (("lying", lying, identity), ("back", poses.source, back_for_front)):
         path = tmp_path / f"{name}.html"
-        path.write_text(match_page(Match(points), pair.source, target, descriptors=False), encoding="utf-8")
+        path.write_text(match_page(Match(points), poses.source, target, descriptors=False), encoding="utf-8")
         browser.open(path.as_uri())
         views = [
             browser.run("return document.getElementById(arguments[0]).getBoundingClientRect().x", f"view-{side}")
@@ -362,15 +357,15 @@ def test_turntable_turns_until_it_is_switched_off(page: Browser) -> None:
     assert page.place("target", 3) == places[0]
 
 
-def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
+def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:
     """A picture that is red on the left and blue on the right, and the pattern again for an alternative."""
     pixels = np.zeros((64, 64, 3))
     pixels[:, :32, 0], pixels[:, 32:, 2] = 1, 1
-    source = pair.source
+    source = poses.source
     uv = np.where(source.vertices[:, :1] < np.median(source.vertices[:, 0]), [0.25, 0.5], [0.75, 0.5])
     file = MeshFile(source, None, uv, source.faces, encode_png(pixels))
-    found = Match(pair.truth, alternatives=(pair.truth[::-1],))
-    html = match_page(found, file, pair.target, ("a", "b"), descriptors=False)
+    found = Match(poses.truth, alternatives=(poses.truth[::-1],))
+    html = match_page(found, file, poses.target, ("a", "b"), descriptors=False)
     (tmp_path / "texture.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "texture.html").as_uri())
     browser.mode("texture")

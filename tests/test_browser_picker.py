@@ -13,7 +13,7 @@ from chromium import NASTY, Browser, Keys, needs_browser
 from kfmaps import Match
 from kfmaps._arrays import InvalidInput
 from kfmaps._progress import Progress
-from kfmaps.datasets import ExamplePair, two_poses
+from kfmaps.datasets import ExamplePair
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_landmark_names, read_landmarks
 from kfmaps.viz.document import forwarding_page
@@ -21,11 +21,6 @@ from kfmaps.viz.picker import PickerServer
 
 pytest_plugins = ["chromium"]
 pytestmark = needs_browser
-
-
-@pytest.fixture(scope="module")
-def pair() -> ExamplePair:
-    return two_poses(1500)
 
 
 GOING = threading.Event()
@@ -44,12 +39,12 @@ def a_matcher(landmarks: np.ndarray, progress: Progress) -> Match:
 
 @pytest.fixture
 def picker(
-    browser: Browser, pair: ExamplePair, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+    browser: Browser, poses: ExamplePair, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Browser]:
     """The page, opened as the command does: from a file that leads to the server's address."""
     serving = PickerServer(
-        pair.source,
-        pair.target,
+        poses.source,
+        poses.target,
         (NASTY, "b"),
         tmp_path / "pairs.txt",
         matcher=a_matcher,
@@ -97,9 +92,9 @@ def add(picker: Browser, source: int, target: int) -> None:
     picker.element("#add-target").send_keys(str(target), Keys.ENTER)
 
 
-def test_pairs_are_clicked_undone_dragged_deleted_and_saved(picker: Browser, pair: ExamplePair, tmp_path: Path) -> None:
-    s = spread(picker, "source", pair.source, 4)
-    t = spread(picker, "target", pair.target, 4)
+def test_pairs_are_clicked_undone_dragged_and_saved(picker: Browser, poses: ExamplePair, tmp_path: Path) -> None:
+    s = spread(picker, "source", poses.source, 4)
+    t = spread(picker, "target", poses.target, 4)
     picker.point("source", s[0], click=True)
     assert "click its match on b" in picker.text("readout")
     picker.point("target", t[0], click=True)
@@ -148,7 +143,7 @@ def test_existing_file_is_replaced_after_asking(picker: Browser, tmp_path: Path)
     assert read_landmarks(tmp_path / "pairs.txt").tolist() == [[7, 9]]
 
 
-def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: ExamplePair) -> None:
+def test_match_shows_progress_its_map_and_its_errors(picker: Browser, poses: ExamplePair) -> None:
     add(picker, 3, 5)
     add(picker, 8, 6)
     GOING.clear()
@@ -163,7 +158,7 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Exam
     picker.point("target", picker.visible("target", np.arange(200), 1)[0])
     picker.until(lambda: picker.run("return kfmaps.marks('source')") == [3, 3, 8])
     off = [float(row[4]) / 100 for row in cells(picker)]
-    apart = np.linalg.norm(pair.source.vertices[8] - pair.source.vertices[3]) / np.sqrt(surface_area(pair.source))
+    apart = np.linalg.norm(poses.source.vertices[8] - poses.source.vertices[3]) / np.sqrt(surface_area(poses.source))
     assert off == [0, pytest.approx(apart, rel=0.06)]  # shown with two digits
     picker.mode("confidence")  # of a map that sends everything to one point: none
     assert "local fit" in picker.text("legend-text")
@@ -178,8 +173,8 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Exam
     assert picker.complaints() == []
 
 
-def test_change_is_white_where_nothing_moved_and_red_where_it_did(picker: Browser, pair: ExamplePair) -> None:
-    far = int(np.linalg.norm(pair.source.vertices - pair.source.vertices[3], axis=1).argmax())
+def test_change_is_white_where_nothing_moved_and_red_where_it_did(picker: Browser, poses: ExamplePair) -> None:
+    far = int(np.linalg.norm(poses.source.vertices - poses.source.vertices[3], axis=1).argmax())
     coloured = []
     for number, source in enumerate((3, 3, far), 1):
         # The matcher looks at the first pair alone.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from characters import BODY, character
+from characters import BODY, changed, character, tree_of
 from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import ExamplePair, posed_pair
@@ -24,7 +23,6 @@ from kfmaps.io.convert import as_map
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.record import MeshFile, Skin
-from test_bake import changed
 
 GUARDS = ("kfmaps.io.character", "kfmaps.io.glb", "kfmaps.io.gltf")
 
@@ -295,8 +293,7 @@ def test_a_character_goes_over_from_the_command_line(pair: ExamplePair, source: 
     ran = run("export", tmp_path / "map.npz", "-o", tmp_path / "b.glb", "--source", tmp_path / "a.glb",
               "--target", tmp_path / "b.ply", "--texture-size", 512)  # fmt: skip
     assert ran.status == 0, ran.stderr
-    data = (tmp_path / "b.glb").read_bytes()
-    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    tree = tree_of((tmp_path / "b.glb").read_bytes())
     assert tree["meshes"][0]["extras"]["targetNames"] == ["swell", "nod"]
     assert [node["name"] for node in tree["nodes"][1:]] == list(skin_of(shape).names)
     found = read_mesh_file(tmp_path / "b.glb")

@@ -18,7 +18,7 @@ import pytest
 import typer
 
 import kfmaps
-from commandline import run, shapes, start
+from commandline import Ran, run, shapes, start
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
 from kfmaps.cli import main as cli
 from kfmaps.cli.main import COMMANDS
@@ -70,11 +70,6 @@ def test_h_is_help() -> None:
         assert run(*words, "-h").stdout == run(*words, "--help").stdout != ""
 
 
-def test_options_that_have_gone_say_what_they_are_now() -> None:
-    assert "there is no option --rank; use --set nystrom.samples=VALUE" in run("match", "a", "b", "--rank", "3").error
-    assert "No such option" in run("info", "a", "--rank", "3").error
-
-
 def test_list_imports_nothing_heavy() -> None:
     code = "import sys; from kfmaps.cli.main import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -96,17 +91,13 @@ LEAVES = dict(leaves(typer.main.get_command(cli.application())))
 
 
 @pytest.mark.parametrize("name", LEAVES)
-def test_a_command_has_few_options(name: str) -> None:
+def test_a_command_has_few_options_and_speaks_json(name: str) -> None:
     """At most ten of its own, beside those of every command and ten for settings; all else is said with --set."""
+    assert any("--json" in p.opts for p in LEAVES[name].params)
     panels = [getattr(p, "rich_help_panel", None) for p in LEAVES[name].params if p.opts[0].startswith("-")]
     assert panels.count(None) <= 10 + 1  # --help
     assert panels.count("Settings") <= 10
     assert set(panels) <= {None, "Settings", _COMMON}
-
-
-@pytest.mark.parametrize("name", LEAVES)
-def test_every_command_speaks_json(name: str) -> None:
-    assert any("--json" in p.opts for p in LEAVES[name].params)
 
 
 def test_required_verdicts() -> None:
@@ -123,6 +114,7 @@ def test_required_verdicts() -> None:
         (["matsch"], "No such command 'matsch'"),
         (["info"], "Missing argument 'MESH'; see kfmaps info --help"),
         (["info", "--yaml", "x"], "--yaml"),
+        (["info", "a", "--rank", "3"], "No such option"),
         (["match", "a.off", "b.off", "--threads", "many"], "--threads"),
         (["view", "a.npz", "b.npz"], "unexpected extra argument"),
     ],
@@ -154,16 +146,10 @@ def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
         run("info")
 
 
-@pytest.mark.parametrize("raised", [KeyboardInterrupt(), typer.Abort()])
-def test_interrupted_quietly(raised: BaseException, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("raised", "status"), [(KeyboardInterrupt(), 130), (typer.Abort(), 130), (typer.Exit(7), 7)])
+def test_how_a_command_ends_quietly(raised: BaseException, status: int, monkeypatch: pytest.MonkeyPatch) -> None:
     stubbed(monkeypatch, raised)
-    assert run("info") == (ran := run("info"))
-    assert (ran.status, ran.stdout, ran.stderr) == (130, "", "")
-
-
-def test_exit_status_of_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    stubbed(monkeypatch, typer.Exit(7))
-    assert run("info").status == 7
+    assert run("info") == Ran(status, "", "")
 
 
 def test_warnings_are_one_line_each_and_not_repeated(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -172,14 +158,8 @@ def test_warnings_are_one_line_each_and_not_repeated(monkeypatch: pytest.MonkeyP
             warnings.warn(text, KfmapsWarning, stacklevel=1)
 
     monkeypatch.setattr(importlib.import_module("kfmaps.cli.commands.info"), "info", info)
-    ran = run("info")
-    assert ran.stderr == "kfmaps: warning: odd thing\nkfmaps: warning: another\n"
-    assert ran.status == 0
-
-
-def test_warning_filters_are_as_before() -> None:
     before = list(warnings.filters), warnings.showwarning
-    run("--version")
+    assert run("info") == Ran(0, "", "kfmaps: warning: odd thing\nkfmaps: warning: another\n")
     assert (list(warnings.filters), warnings.showwarning) == before
 
 

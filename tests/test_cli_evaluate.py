@@ -62,9 +62,6 @@ def test_numbers(made: types.SimpleNamespace) -> None:
 
 def test_source_is_the_one_that_the_map_names(made: types.SimpleNamespace) -> None:
     assert numbers(made, *truth(made)) == numbers(made, "--source", made.source, *truth(made))
-
-
-def test_table_for_people(made: types.SimpleNamespace) -> None:
     shown = run("evaluate", made.map, *truth(made)).stdout
     assert f"{100 * made.errors.mean():.3f}" in shown
     assert "% of √area" in shown

@@ -26,7 +26,7 @@ def text(name: str) -> str:
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
-def test_links_and_paths_lead_somewhere(path: Path) -> None:
+def test_links_paths_names_and_commands_exist(path: Path) -> None:
     content = path.read_text(encoding="utf-8")
     links = re.findall(r"\]\(([^)#]+)", content)
     named = re.findall(r"`((?:src|tests|docs|research)/[\w./-]+)`", content)
@@ -36,20 +36,10 @@ def test_links_and_paths_lead_somewhere(path: Path) -> None:
         assert made or (path.parent / link).exists(), link
     for name in named:
         assert (ROOT / name).exists(), name
-
-
-@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
-def test_names_of_the_package_exist(path: Path) -> None:
-    for name in re.findall(r"`(kfmaps(?:\.\w+)+)", path.read_text(encoding="utf-8")):
+    for name in re.findall(r"`(kfmaps(?:\.\w+)+)", content):
         assert exists(name), name
-
-
-@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
-def test_commands_exist(path: Path) -> None:
-    for name in re.findall(r"`?kfmaps ([a-z]+)\b(?= |`)", path.read_text(encoding="utf-8")):
-        if name in ("is", "functional", "proposes", "that", "wrote", "developers"):
-            continue
-        assert name in COMMANDS, name
+    others = {"is", "functional", "proposes", "that", "wrote", "developers"}
+    assert set(re.findall(r"`?kfmaps ([a-z]+)\b(?= |`)", content)) - others <= set(COMMANDS)
 
 
 def words(path: Path) -> int:
@@ -77,37 +67,52 @@ def test_every_research_page_begins_with_its_answer() -> None:
             assert f"({page.name})" in contents
 
 
-def test_readme_names_every_command() -> None:
+def test_readme_names_every_command_and_calls_what_is_public() -> None:
     readme = text("README.md")
     for name in COMMANDS:
         assert re.search(rf"\b{name}\b", readme), name
+    assert set(re.findall(r"kfmaps\.(\w+)\(", readme)) <= set(kfmaps.__all__)
 
 
 def test_options_in_the_documents_exist() -> None:
     known = set(OPTIONS) | {"--preset", "--config", "--set", "--seed"}
-    for flag in re.findall(r"(?<![\w-])--[a-z][a-z-]*", text("docs/settings.md")):
-        assert flag in known, flag
+    assert set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", text("docs/settings.md"))) <= known
 
 
 def test_picture_is_small() -> None:
     assert (ROOT / "docs" / "images" / "demo.png").stat().st_size <= 300_000
 
 
-def test_citation() -> None:
+def test_citation_and_version() -> None:
     citation = text("CITATION.cff")
+    assert f'version = "{kfmaps.__version__}"' in text("pyproject.toml")
     assert f"version: {kfmaps.__version__}" in citation
-    for work in (
-        "Kernel functional maps",
-        "ZoomOut",
-        "Unique signatures",
-        "wave kernel",
-        "nonmanifold",
-        "commutativity",
-    ):
+    for work in ("Kernel functional maps", "ZoomOut", "Unique signatures", "wave kernel", "nonmanifold"):
         assert work in citation
     assert citation.count("  - type: ") == citation.count("    title: ") == citation.count("    authors:")
 
 
-def test_readme_call_is_public() -> None:
-    for name in re.findall(r"kfmaps\.(\w+)\(", text("README.md")):
-        assert name in kfmaps.__all__
+def test_the_reference_has_every_public_name() -> None:
+    documented = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.rst"))
+    entries = set(re.findall(r"^\.\. auto\w+:: kfmaps\.(\w+)$", documented, re.MULTILINE))
+    assert set(kfmaps.__all__) <= entries
+
+
+def test_the_reference_names_what_exists() -> None:
+    for path in (ROOT / "docs" / "api").glob("*.rst"):
+        for name in re.findall(r"^\.\. auto\w+:: ([\w.]+)$", path.read_text(encoding="utf-8"), re.MULTILINE):
+            assert exists(name), name
+
+
+def test_every_public_name_says_what_it_is() -> None:
+    for name in set(kfmaps.__all__) - {"datasets"}:
+        text = getattr(kfmaps, name).__doc__ or ""
+        # A dataclass without a docstring is given its signature as one.
+        assert len(text.strip()) > 15, name
+        assert not text.startswith(f"{name}("), name
+
+
+def test_math_is_a_file_of_the_site() -> None:
+    settings = (ROOT / "docs" / "conf.py").read_text(encoding="utf-8")
+    assert "://" not in settings
+    assert re.search(r'^mathjax_path = "[\w-]+\.js"$', settings, re.MULTILINE)

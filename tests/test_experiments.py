@@ -32,7 +32,6 @@ from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.settings import read_settings, settings_text
-from kfmaps.viz import surfaces
 from methods import no17, obcs12, paper, recommended
 from pair_errors import Row, fingerprint, fit_pair, pair_rows, raw_map
 from section44 import conditioning
@@ -352,7 +351,6 @@ def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Options:
     monkeypatch.setattr(figure5, "kernels", lambda: {k: small(c) for k, c in both[1]().items()})
     monkeypatch.setattr(figure4, "settings", lambda n, alone: {k: small(c) for k, c in both[2](n, alone).items()})
     monkeypatch.setattr(figure4, "COUNTS", (2,))
-    monkeypatch.setattr(surfaces, "_ENOUGH", 0)
     monkeypatch.setattr(figure3, "RANKS", (5, 20, 400))
     monkeypatch.setattr(figure3, "SEEDS", (0,))
     for name in ("paper", "recommended"):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.image import imread, imsave
 
-from conftest import blob, fibonacci_sphere
+from conftest import blob, corner_uv, fibonacci_sphere, known
 from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh
@@ -42,11 +43,9 @@ def vertices_of(points: np.ndarray, source: MeshFile) -> PointMap:
 def test_the_identity_gives_back_the_texture() -> None:
     """At the seam too, where a vertex has several coordinates and each face those of its own side."""
     source = globe()
-    assert source.uv is not None
-    assert source.uv_faces is not None
     found = transfer_uv(source, source.mesh, vertices_of(np.arange(len(source.mesh.vertices)), source))
     assert not found.torn.any()
-    np.testing.assert_array_equal(found.uv[found.uv_faces], source.uv[source.uv_faces])
+    np.testing.assert_array_equal(found.uv[found.uv_faces], corner_uv(source))
 
 
 def test_another_triangulation_has_no_stretched_faces_but_torn_ones() -> None:
@@ -61,16 +60,12 @@ def test_another_triangulation_has_no_stretched_faces_but_torn_ones() -> None:
 
 def test_vertices_without_faces_borrow_from_the_nearest(tmp_path: Path) -> None:
     source = globe(60)
-    assert source.uv is not None
     lonely = source.mesh.vertices[7] * 1.01
-    extended = MeshFile(
-        Mesh(np.vstack([source.mesh.vertices, lonely]), source.mesh.faces), None, source.uv, source.uv_faces
-    )
+    extended = replace(source, mesh=Mesh(np.vstack([source.mesh.vertices, lonely]), source.mesh.faces))
     target = fibonacci_sphere(20)
     write_textured(tmp_path / "out.glb", extended, target, np.full(20, 60))
-    found = read_mesh_file(tmp_path / "out.glb").uv
-    assert found is not None
-    np.testing.assert_allclose(found % 1, np.broadcast_to(source.uv[7] % 1, found.shape), atol=1e-6)
+    found = corner_uv(read_mesh_file(tmp_path / "out.glb"))
+    np.testing.assert_allclose(found % 1, np.broadcast_to(known(source.uv)[7] % 1, found.shape), atol=1e-6)
 
 
 def test_textured_files(tmp_path: Path) -> None:
@@ -81,11 +76,7 @@ def test_textured_files(tmp_path: Path) -> None:
     found = read_mesh_file(tmp_path / "out.obj")
     np.testing.assert_array_equal(found.mesh.vertices, target.vertices)
     np.testing.assert_array_equal(found.mesh.faces, target.faces)
-    assert found.uv is not None
-    assert found.uv_faces is not None
-    assert source.uv is not None
-    assert source.uv_faces is not None
-    np.testing.assert_array_equal(found.uv[found.uv_faces], source.uv[source.uv_faces])
+    np.testing.assert_array_equal(corner_uv(found), corner_uv(source))
     assert "map_Kd out.png" in (tmp_path / "out.mtl").read_text()
     assert (tmp_path / "out.obj").read_text().startswith("mtllib out.mtl\n")
     assert imread(tmp_path / "out.png").shape[:2] == (1024, 1024)
@@ -95,9 +86,7 @@ def test_a_source_without_texture_is_projected(tmp_path: Path) -> None:
     source = blob(80)
     write_textured(tmp_path / "out.obj", MeshFile(source), source, np.arange(80))
     found = read_mesh_file(tmp_path / "out.obj")
-    assert found.uv is not None
-    assert found.uv_faces is not None
-    np.testing.assert_array_equal(found.uv[found.uv_faces], projected_uv(source.vertices)[source.faces])
+    np.testing.assert_array_equal(corner_uv(found), projected_uv(source.vertices)[source.faces])
 
 
 def test_a_picture_of_ones_own(tmp_path: Path) -> None:
@@ -147,8 +136,7 @@ def test_colored_files(tmp_path: Path, suffix: str) -> None:
     points = np.random.default_rng(0).integers(0, 80, 40)
     write_colored(tmp_path / f"a{suffix}", colors, target, points)
     found = read_mesh_file(tmp_path / f"a{suffix}").colors
-    assert found is not None
-    np.testing.assert_allclose(found, colors[points], atol=0.51 / 255)
+    np.testing.assert_allclose(known(found), colors[points], atol=0.51 / 255)
     with pytest.raises(InvalidInput, match="one colour per source vertex"):
         write_colored(tmp_path / f"b{suffix}", colors[:, :2], target, points)
 

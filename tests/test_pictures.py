@@ -13,7 +13,6 @@ from conftest import fibonacci_sphere
 from kfmaps import viz as pictures
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.viz import surfaces
 from kfmaps.viz.camera import fit_rotation
 from kfmaps.viz.figures import _oklab_to_rgb, make_transparent
 
@@ -74,7 +73,8 @@ def test_nothing_is_clipped_and_the_background_stays_white() -> None:
         assert max(np.ptp(rows), np.ptp(columns)) > 180, "the shape fills the axes"
 
 
-def test_no_seams_between_faces() -> None:
+def test_no_seams_between_faces(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kfmaps.viz.surfaces._ENOUGH", 24000)
     mesh = ball()
     picture = drawn(mesh, painted(mesh, BLUE), shading=False)
     y, x = np.mgrid[-1:1:200j, -1:1:200j]
@@ -293,8 +293,7 @@ def test_shapes_of_different_kinds_are_both_upright() -> None:
     assert pictures.following_view(own, person, animal, same).up[2] > 0.9
 
 
-def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(surfaces, "_ENOUGH", 1000)
+def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path) -> None:
     mesh = blob()
     for kind, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
         files = [tmp_path / f"{i}.{kind}" for i in range(2)]

@@ -23,27 +23,8 @@ from kfmaps.datasets import ExamplePair
 STUB = Path(str(kfmaps.__file__)).with_suffix(".pyi")
 API = Path(__file__).parent.parent / "docs" / "api"
 DIRECTIVE = re.compile(r"^\.\. auto(\w+):: (\S+)((?:\n   :.*)*)", re.MULTILINE)
-RECORDS = {
-    "Basis",
-    "Config",
-    "Energy",
-    "Kernel",
-    "KernelLike",
-    "Mesh",
-    "MeshFile",
-    "Model",
-    "PointMap",
-    "Shape",
-    "Term",
-    "View",
-}
-
-
-@pytest.mark.parametrize("name", kfmaps.__all__)
-def test_name(name: str) -> None:
-    assert getattr(kfmaps, name) is not None
-    documented = getattr(kfmaps, name).__doc__
-    assert documented
+RECORDS = {"Basis", "Config", "Energy", "Kernel", "KernelLike", "Mesh", "MeshFile", "Model", "PointMap", "Shape"}
+RECORDS |= {"Term", "View"}
 
 
 def test_what_type_checkers_read_is_what_is_imported() -> None:
@@ -61,15 +42,8 @@ def test_what_type_checkers_read_is_what_is_imported() -> None:
         assert value is sys.modules.get(f"{module}.{name}", None) or value is getattr(sys.modules[module], name)
 
 
-def test_stub_is_in_the_package() -> None:
-    """It is read when the package is imported, so a wheel must carry it: everything in the package's folder goes in."""
-    text = (Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8")
-    assert STUB.is_file()
-    assert 'packages = ["src/kfmaps"]' in text
-    assert "exclude" not in text
-
-
-def test_unknown_name() -> None:
+def test_no_other_name() -> None:
+    assert dir(kfmaps) == sorted([*kfmaps.__all__, "__version__"])
     with pytest.raises(AttributeError, match="no attribute 'mach'"):
         kfmaps.mach  # noqa: B018  # pyright: ignore[reportAttributeAccessIssue]
 
@@ -78,11 +52,6 @@ def test_import_is_light() -> None:
     code = "import sys, kfmaps; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not {"numpy", "scipy", "matplotlib", "torch", "trimesh"} & set(done.stdout.split())
-
-
-def test_version_is_the_installed_one() -> None:
-    text = (Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8")
-    assert f'version = "{kfmaps.__version__}"' in text
 
 
 SAME = {"app", "geodesic_errors", "learn", "main", "match", "prepare", "transfer", "view"}
@@ -107,10 +76,6 @@ def test_a_public_name_has_one_meaning() -> None:
                 homes[name].append(str(path.relative_to(STUB.parent)))
     assert {name: paths for name, paths in homes.items() if len(paths) > 1 and name not in SAME} == {}
     assert len(SAME) <= 10
-
-
-def test_dir_shows_public_names_only() -> None:
-    assert dir(kfmaps) == sorted([*kfmaps.__all__, "__version__"])
 
 
 @pytest.mark.parametrize("module", ["kfmaps", "kfmaps.io", "kfmaps.viz", "kfmaps.learn", "kfmaps.datasets"])

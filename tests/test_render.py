@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 from scipy.spatial import KDTree
 from typer.testing import CliRunner
 
@@ -18,7 +19,7 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.cli.commands.render import app
 from kfmaps.fmap.evaluate import geodesic_errors
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map
 from kfmaps.viz import (
     Curve,
@@ -39,8 +40,6 @@ THRESHOLDS = np.linspace(0, 0.25, 11)
 
 
 def png(figure: Figure) -> np.ndarray:
-    from matplotlib.image import imread
-
     file = BytesIO()
     save_figure(figure, file, "png")
     return imread(BytesIO(file.getvalue()))
@@ -102,7 +101,7 @@ def test_a_grid_carries_the_colours() -> None:
     np.testing.assert_allclose(shade, shade[:, :1] * np.ones(3), rtol=1e-6)
 
 
-@pytest.mark.parametrize("count", [1, 2, 5, 11])
+@pytest.mark.parametrize("count", [1, 11])
 def test_panels_lie_apart_and_inside(count: int) -> None:
     figure = grid_figure(blob(200), panels(count))
     boxes = [ax.get_position() for ax in figure.axes]
@@ -123,18 +122,13 @@ def test_shapes_of_one_area_are_drawn_at_one_scale() -> None:
     stretched = Mesh(stretched.vertices * [1, 3, 1], stretched.faces)
     figure = grid_figure(blob(200), [Panel("long", stretched, np.arange(200))])
     spans = [np.ptp(ax.get_ylim()) for ax in figure.axes]
-    areas = [np.sqrt(_area(mesh)) for mesh in (blob(200), stretched)]
+    areas = [np.sqrt(surface_area(mesh)) for mesh in (blob(200), stretched)]
     assert spans[1] / spans[0] == pytest.approx(areas[1] / areas[0])
     for ax in figure.axes:  # nothing is cut off
         (drawn,) = (c for c in ax.collections if isinstance(c, PolyCollection))
         points = np.concatenate([path.vertices for path in drawn.get_paths()])
         assert points[:, 1].min() >= ax.get_ylim()[0]
         assert points[:, 1].max() <= ax.get_ylim()[1]
-
-
-def _area(mesh: Mesh) -> float:
-    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
 
 def test_bad_grids() -> None:
@@ -223,18 +217,15 @@ def render(tmp_path: Path) -> Callable[..., Path]:
     return run
 
 
-@pytest.mark.parametrize(("kind", "start"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
-def test_every_kind_of_figure(output: Path, render: Callable[..., Path], kind: str, start: bytes) -> None:
-    name = f"figure.{kind}"
-    for arguments in (
-        ("pair", output / "maps" / "b0-b1.npz", "--title", "$a"),
-        ("grid", output, "--source", "b0"),
-        ("curves", output),
+def test_every_kind_of_figure(output: Path, render: Callable[..., Path]) -> None:
+    for arguments, kind, start in (
+        (("pair", output / "maps" / "b0-b1.npz", "--title", "$a"), "pdf", b"%PDF"),
+        (("grid", output, "--source", "b0"), "svg", b"<?xml"),
+        (("curves", output), "png", b"\x89PNG"),
     ):
-        path = render(*arguments, "--force", name=name)
-        assert path.read_bytes().startswith(start)
+        assert render(*arguments, name=f"figure.{kind}").read_bytes().startswith(start)
     with pytest.raises(InvalidInput, match="--force"):
-        render("curves", output, name=name)
+        render("curves", output, name="figure.png")
 
 
 def test_a_pair_with_its_error(output: Path, render: Callable[..., Path]) -> None:
@@ -243,23 +234,14 @@ def test_a_pair_with_its_error(output: Path, render: Callable[..., Path]) -> Non
     (truth,) = {p.parent for p in Path(load_map(settings[0]).source_file.path).parent.glob("corres/*.vts")}
     lists = (truth / "b0.vts", truth / "b1.vts")
     with_error = render("pair", *settings, "--truth", *lists, "--limit", 10, name="error.png")
-    from matplotlib.image import imread
-
     assert imread(with_error).shape[1] > imread(plain).shape[1]
     with pytest.raises(InvalidInput, match="--from beside it"):
         render("pair", settings[0], "--up", 0, 0, 1, name="other.png")
 
 
-def test_resolution(output: Path, render: Callable[..., Path]) -> None:
-    from matplotlib.image import imread
-
+def test_resolution_and_targets_by_name(output: Path, render: Callable[..., Path]) -> None:
     fine, coarse = (imread(render("curves", output, "--dpi", dpi, name=f"{dpi}.png")) for dpi in (300, 100))
     assert fine.shape[0] == pytest.approx(3 * coarse.shape[0], abs=3)
-
-
-def test_targets_are_chosen_by_name(output: Path, render: Callable[..., Path]) -> None:
-    from matplotlib.image import imread
-
     both, one = (
         imread(render("grid", output, "--source", "b0", *more, "--columns", 3, name=name))
         for more, name in (((), "two.png"), (("--targets", "b2"), "one.png"))

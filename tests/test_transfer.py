@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 import kfmaps
+from characters import tree_of
 from commandline import run
+from conftest import corner_uv, known
 from kfmaps import datasets
 from kfmaps.fmap.precise import PointMap, invert_precise_map, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
@@ -24,10 +26,10 @@ from kfmaps.matching.result_groups import MatchRegistration
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
+def made(tmp_path_factory: pytest.TempPathFactory, poses: datasets.ExamplePair) -> types.SimpleNamespace:
     """A map with points inside triangles, known exactly, between files that it names."""
     folder = tmp_path_factory.mktemp("carried")
-    pair = datasets.two_poses(1500, rng=2)
+    pair = poses
     paths = {side: folder / f"{side}.ply" for side in ("source", "target")}
     write_mesh(paths["source"], pair.source)
     write_mesh(paths["target"], pair.target)
@@ -96,11 +98,10 @@ def test_a_picture_travels_inside_a_glb_and_no_shape_is_named(made: types.Simple
     data = (tmp_path / "b.glb").read_bytes()
     found = read_mesh_file(tmp_path / "b.glb")
     assert len(found.mesh.faces) == len(made.pair.target.faces)
-    assert found.uv is not None
+    assert corner_uv(found).shape == (len(found.mesh.faces), 3, 2)
     corners = found.mesh.vertices[found.mesh.faces]
     np.testing.assert_allclose(corners, made.pair.target.vertices[made.pair.target.faces], rtol=1e-6, atol=1e-6)
-    size = int.from_bytes(data[12:16], "little")
-    tree = json.loads(data[20 : 20 + size])
+    tree, size = tree_of(data), int.from_bytes(data[12:16], "little")
     view = tree["bufferViews"][tree["images"][0]["bufferView"]]
     picture = data[28 + size + view["byteOffset"] :][: view["byteLength"]]
     assert picture.startswith(b"\x89PNG")
@@ -135,15 +136,12 @@ def test_a_changed_file_is_told(made: types.SimpleNamespace, tmp_path: Path) -> 
     assert "has changed" in run("export", tmp_path / "map.npz", "-o", tmp_path / "b.ply").stderr
     assert "changed" not in run("export", made.map, "-o", tmp_path / "c.ply").stderr
     colors = read_mesh_file(tmp_path / "b.ply").colors
-    assert colors is not None
-    assert len(np.unique(colors, axis=0)) > 100
+    assert len(np.unique(known(colors), axis=0)) > 100
 
 
 def test_the_source_morphs_into_the_target(made: types.SimpleNamespace, tmp_path: Path) -> None:
     run("export", made.map, "--morph", "-o", tmp_path / "m.glb")
-    data = (tmp_path / "m.glb").read_bytes()
-    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
-    assert tree["meshes"][0]["weights"] == [0.0]
+    assert tree_of((tmp_path / "m.glb").read_bytes())["meshes"][0]["weights"] == [0.0]
     moved = read_mesh_file(tmp_path / "m.glb")
     run("export", made.map, "--morph", "-o", tmp_path / "m.ply")
     bent = read_mesh_file(tmp_path / "m.ply").mesh
@@ -157,8 +155,7 @@ def test_map_files_keep_points_and_refuse_wrong_ones(made: types.SimpleNamespace
     found = load_map(made.map)
     for suffix in (".npz", ".mat"):
         save_map(tmp_path / f"m{suffix}", found)
-        place = load_map(tmp_path / f"m{suffix}").precise_map
-        assert place is not None
+        place = known(load_map(tmp_path / f"m{suffix}").precise_map)
         np.testing.assert_array_equal(place.faces, made.place.faces)
         np.testing.assert_allclose(place.weights, made.place.weights)
     wrong: list[dict[str, Any]] = [
@@ -185,8 +182,7 @@ def test_glb_keeps_colours_and_shape() -> None:
 def test_normals_of_a_glb_have_length_one_throughout() -> None:
     """A vertex of no face too."""
     data = format_glb(MeshFile(Mesh(np.eye(4, 3), np.array([[0, 1, 2]]))))
-    size = int.from_bytes(data[12:16], "little")
-    tree = json.loads(data[20 : 20 + size])
+    tree, size = tree_of(data), int.from_bytes(data[12:16], "little")
     accessor = tree["accessors"][tree["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]]
     first = 28 + size + tree["bufferViews"][accessor["bufferView"]]["byteOffset"]
     normals = np.frombuffer(data, "<f4", 12, first).reshape(4, 3)

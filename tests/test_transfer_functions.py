@@ -17,9 +17,9 @@ from kfmaps.matching.result import Match
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
+def made(tmp_path_factory: pytest.TempPathFactory, poses: datasets.ExamplePair) -> types.SimpleNamespace:
     folder = tmp_path_factory.mktemp("functions")
-    pair = datasets.two_poses(1500, rng=2)
+    pair = poses
     paths = {side: folder / f"{side}.ply" for side in ("source", "target")}
     write_mesh(paths["source"], pair.source)
     write_mesh(paths["target"], pair.target)

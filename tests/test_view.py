@@ -7,7 +7,6 @@ import shutil
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -124,9 +123,6 @@ def test_json_block_holds_no_markup_and_means_the_same() -> None:
     text = _json_block(data)
     assert not set("<>&\u2028") & set(text)
     assert json.loads(text) == {NASTY: [NASTY, 0.5, [0, 1], [1, None], True, "Ω → \u2028"]}
-
-
-def test_json_has_no_nan() -> None:
     assert to_json({"a": np.nan, "b": [float("inf")], "c": Path("x")}) == {"a": "nan", "b": ["inf"], "c": "x"}
 
 
@@ -159,9 +155,6 @@ def test_nearest_reached_is_nearest_along_the_edges() -> None:
     own = distance[np.arange(len(nearest)), nearest]
     assert np.allclose(own, distance[:, points].min(axis=1))
     assert own.max() > 0
-
-
-def test_nearest_reached_without_edges_goes_straight() -> None:
     cloud = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [2.2, 0, 0], [9, 0, 0]]), NO_FACES)
     assert nearest_reached(cloud, np.array([1, 3])).tolist() == [1, 1, 1, 3]
 
@@ -401,11 +394,6 @@ def test_bundle_is_built_from_the_sources() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_static_files_are_in_the_package() -> None:
-    names = {f.name for f in files("kfmaps.viz").joinpath("static").iterdir()}
-    assert {"viewer.js", "viewer.css", "viewer.LICENSE.txt"} <= names
-
-
 def test_colours_are_mixed_inside_triangles_where_the_map_has_points_there(pair: tuple) -> None:
     source, target, _ = pair
     faces = np.arange(len(target.vertices)) % len(source.faces)
@@ -423,8 +411,7 @@ def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarr
     picture = encode_png(np.random.default_rng(0).random((2100, 30, 3)))
     file = MeshFile(source, None, np.random.default_rng(1).random((len(source.vertices), 2)), source.faces, picture)
     found = Match(points)
-    html = match_page(found, file, target, ("a", "b"), descriptors=False)
-    own, carried = page_data(html)["textures"]
+    own, carried = page_data(match_page(found, file, target, ("a", "b"), descriptors=False))["textures"]
     assert len(unpacked(own["corners"])) == 3 * len(source.faces)
     assert len(unpacked(carried["corners"])) == 3 * len(target.faces)
     for record in (own, carried):
@@ -432,5 +419,3 @@ def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarr
         assert kind == "data:image/png;base64"
         assert decode_picture(Picture(base64.b64decode(data), "image/png")).shape[0] >= 2048
     assert page_data(plain_page(source, target, found))["textures"] == []
-    bare = MeshFile(source)
-    assert page_data(match_page(found, bare, target, ("a", "b"), descriptors=False))["textures"] == []
