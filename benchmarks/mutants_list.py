@@ -433,8 +433,8 @@ MUTANTS = tuple(
             "test_collection -k family",
         ),
         (
-            "vertices=np.where(lost, -1, self.vertices)",
-            "vertices=np.where(~lost, -1, self.vertices)",
+            "vertices=np.where(missing, -1, self.vertices)",
+            "vertices=np.where(~missing, -1, self.vertices)",
             "test_landmark_files -k closest_point",
         ),
         # config
@@ -480,11 +480,11 @@ MUTANTS = tuple(
         ("a.owner[points[b.vertices]]", "a.owner[b.vertices]", "test_coarse_proxies"),
         # pictures of OBJ files
         (
-            "found = {pictures.get(used[i][1]) for i in np.unique(last)}",
-            "found = set(pictures.values())",
+            "names = {pictures.get(used[i][1]) for i in np.unique(material_of_face)}",
+            "names = set(pictures.values())",
             "test_files_obj_picture",
         ),
-        ("picture = found.pop() if len(found) == 1 else None", "picture = found.pop()", "test_files_obj_picture"),
+        ("picture = names.pop() if len(names) == 1 else None", "picture = names.pop()", "test_files_obj_picture"),
         # parts
         ("    fits -= evidence.landmark_cost\n", "", "test_score"),
         ("part_landmark_cost(errors(found), two)", "0.0", "test_parts_alternatives"),
@@ -570,8 +570,8 @@ MUTANTS = tuple(
             "test_parts_other_placements",
         ),
         (
-            "target.faces, nearest), ~ways.source, lost)",
-            "target.faces, nearest), ways.source, lost)",
+            "target.faces, nearest), ~counterparts.source, lost)",
+            "target.faces, nearest), counterparts.source, lost)",
             "test_transfer_parts",
         ),
         (
@@ -579,29 +579,33 @@ MUTANTS = tuple(
             "invert_precise_map(self.place, *self.meshes)",
             "test_transfer_parts",
         ),
-        ("own[on.faces[given.place.faces]]) < 0.5", "own[on.faces[given.place.faces]]) < 0.0", "test_transfer_parts"),
+        (
+            "is_matched[own_mesh.faces[points.place.faces]]) < 0.5",
+            "is_matched[own_mesh.faces[points.place.faces]]) < 0.0",
+            "test_transfer_parts",
+        ),
         # baked textures
         (
             "y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5",
             "y = uv[:, 0] * width, uv[:, 1] * height",
             "test_bake",
         ),
-        ("seam = np.flatnonzero(found.torn[face])", "seam = np.flatnonzero(~found.torn[face])", "test_bake"),
-        ("own = found.torn | (", "own = found.torn & (", "test_bake"),
-        ("uv_faces[rows] = len(uv) + again", "uv_faces[rows] = again", "test_files_export"),
+        ("on_seam = np.flatnonzero(uv_map.torn[face])", "on_seam = np.flatnonzero(~uv_map.torn[face])", "test_bake"),
+        ("redrawn = uv_map.torn | (", "redrawn = uv_map.torn & (", "test_bake"),
+        ("uv_faces[rows] = len(uv) + unique_rows", "uv_faces[rows] = unique_rows", "test_files_export"),
         # characters
         ("return result * MIRROR[:, None] if mirrored", "return result if mirrored", "test_character"),
         ("* turns.transpose(0, 2, 1)", "* turns", "test_character", "io/character"),
-        ("mirrored) * known[:, None, None]", "mirrored)", "test_character"),
+        ("mirrored) * matched[:, None, None]", "mirrored)", "test_character"),
         (
-            "own = areas[:, None] * weights * (_OWN + np.where(",
-            "own = areas[:, None] * weights * (_OWN + 0 * np.where(",
+            "influence = areas[:, None] * weights * (_OWN + np.where(",
+            "influence = areas[:, None] * weights * (_OWN + 0 * np.where(",
             "test_character",
         ),
-        ("moves[j] = moves[parent] if bare", "moves[j] = moves[-1] if bare", "test_character"),
+        ("moves[parent] if is_free else", "moves[-1] if is_free else", "test_character"),
         ("self.matrices[j] @ m for j, m", "m @ self.matrices[j] for j, m", "test_character"),
         ("local = np.linalg.pinv(above) @ skin.matrices", "local = 1 * skin.matrices", "test_character"),
-        ("hits > 1) <= _TWICE * np.count_nonzero(hits)", "hits > 1) <= np.count_nonzero(hits)", "test_bake"),
+        ("uses > 1) <= _MAX_SHARED * np.count_nonzero(uses)", "uses > 1) <= np.count_nonzero(uses)", "test_bake"),
         # learned kernels, parts of a collection
         (
             "if wanted is not None and wanted != given:",
@@ -961,8 +965,8 @@ MUTANTS = tuple(
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (
-            "replace(part, mesh=Mesh(project_noise(part.mesh.vertices), part.mesh.faces))",
-            "part",
+            "replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))",
+            "cleaned",
             "test_cleaning -k noise",
         ),
         (

@@ -61,7 +61,7 @@ def test_what_is_read_is_not_replaced(
         link(made.folder / read, output)
     before = Path(read).read_bytes()
     told = run(*words, output, "--force").error
-    assert "expected another file than those that are read" in told
+    assert "expected a file other than the inputs" in told
     assert Path(read).read_bytes() == before
 
 

@@ -83,6 +83,6 @@ def test_only_large_shapes_are_prepared_loosely(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(prepared, "laplace_basis", spy)
     for limit in (1000, 999):
-        monkeypatch.setattr(prepared, "FEW", limit)
+        monkeypatch.setattr(prepared, "EXACT_EIGENPAIRS", limit)
         prepared.prepare(blob(1000))
     assert asked == [1e-10, 1e-2]

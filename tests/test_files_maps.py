@@ -386,7 +386,7 @@ def test_sizes_are_looked_at_before_memory_is_taken(
     tmp_path: Path, suffix: str, packed: Any, sizes: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Kilobytes of file that unpack to much more than a map has: refused with a small part of it unpacked."""
-    monkeypatch.setattr("kfmaps.io.mapfile._LARGEST", 1 << 23)
+    monkeypatch.setattr("kfmaps.io.mapfile._MAX_UNPACKED", 1 << 23)
     content = packed(*sizes)
     assert len(content) < 1 << 17
     tracemalloc.start()

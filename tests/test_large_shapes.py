@@ -72,7 +72,7 @@ def necked(n: int, waist: float, half: float) -> Mesh:
 def test_shot_of_some_vertices_stands_for_all(pair, monkeypatch):
     shape = pair[0]
     exact = _local_descriptors(shape.mesh, shape.basis, 0.15)
-    monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
+    monkeypatch.setattr(fit_shape, "MAX_SHOT_VERTICES", 800)
     found = _local_descriptors(shape.mesh, shape.basis, 0.15)
     assert found.shape == exact.shape
     assert found.dtype == np.float32
@@ -92,7 +92,7 @@ def test_shot_of_a_large_shape_counts_so_many_points_in_a_ball(monkeypatch, radi
         asked.append(samples)
         return np.ones((len(at), 2))
 
-    monkeypatch.setattr(fit_shape, "DESCRIBED", 1000)
+    monkeypatch.setattr(fit_shape, "MAX_SHOT_VERTICES", 1000)
     monkeypatch.setattr(fit_shape, "shot", told)
     _local_descriptors(sphere, laplace_basis(sphere, 20), radius)
     assert asked == [pytest.approx(wanted, rel=0.03)]
@@ -101,11 +101,11 @@ def test_shot_of_a_large_shape_counts_so_many_points_in_a_ball(monkeypatch, radi
 def test_shot_between_samples_is_the_mean_by_inverse_squared_distances(pair, monkeypatch):
     shape = pair[0]
     exact = _local_descriptors(shape.mesh, shape.basis, 0.15)
-    monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
-    monkeypatch.setattr(fit_shape, "_IN_BALL", 1000)  # as many support points as all vertices have
+    monkeypatch.setattr(fit_shape, "MAX_SHOT_VERTICES", 800)
+    monkeypatch.setattr(fit_shape, "_BALL_SUPPORT", 1000)  # as many support points as all vertices have
     found = _local_descriptors(shape.mesh, shape.basis, 0.15)
     chosen = stratified_vertices(shape.basis, 800, 0)
-    places = np.hstack([shape.mesh.vertices, fit_shape._NORMALS * vertex_normals(shape.mesh)])
+    places = np.hstack([shape.mesh.vertices, fit_shape._NORMAL_WEIGHT * vertex_normals(shape.mesh)])
     for v in np.setdiff1d(np.arange(len(places)), chosen)[::50]:
         squares = ((places[chosen] - places[v]) ** 2).sum(axis=1)
         near = np.argsort(squares)[:3]

@@ -5,7 +5,7 @@ import sys
 import pytest
 from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limits
 
-from kfmaps._threads import _libraries, one_blas_thread, parallel
+from kfmaps._threads import _controller, one_blas_thread, parallel
 
 
 def blas_threads() -> set[int]:
@@ -32,8 +32,8 @@ def looked(monkeypatch) -> list[None]:
         return ThreadpoolController()
 
     monkeypatch.setattr("kfmaps._threads.ThreadpoolController", counted)
-    monkeypatch.setattr("kfmaps._threads._per_thread", lambda: False)
-    _libraries.cache_clear()
+    monkeypatch.setattr("kfmaps._threads._has_thread_limits", lambda: False)
+    _controller.cache_clear()
     return seen
 
 

@@ -58,8 +58,8 @@ def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> 
     source, target = made.pair.source, made.pair.target
     ones = np.ones((len(source.vertices), 1))
     for values, products, words in (
-        (np.full(len(source.vertices), "arm"), 5, "labels go by points"),
-        (ones, 31, "at most the 30 functions"),
+        (np.full(len(source.vertices), "arm"), 5, "to transfer labels"),
+        (ones, 31, "at most 30, the functions"),
         (ones[:-1], 5, "one row per source vertex"),
     ):
         with pytest.raises(InvalidInput, match=words):

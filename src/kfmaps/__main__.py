@@ -5,28 +5,28 @@ import sys
 
 
 def main() -> int:
-    """Run the command and return its exit status; Ctrl-C ends it at any time without a message."""
-    # While Python imports, which takes half a second, and while it ends, nothing can catch the interrupt: the system
-    # ends the process then. A parent that has the signal ignored keeps it so.
-    ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    """Run the command and return its exit status; Ctrl-C ends it without a message."""
+    # Nothing can catch an interrupt while Python imports, which takes half a second, or while it ends. So the system's
+    # own handler ends the process then. Where the parent process ignores the signal, it stays ignored.
+    is_default = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     try:
-        if ours:
+        if is_default:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
         from kfmaps.cli.main import main as command
 
-        if ours:
+        if is_default:
             signal.signal(signal.SIGINT, signal.default_int_handler)
-        signal.signal(signal.SIGTERM, _ended)
+        signal.signal(signal.SIGTERM, _exit_on_signal)
         status = command()
-        if ours:
+        if is_default:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
     return status
 
 
-def _ended(number: int, frame: object) -> None:
-    """Leave by an exception, so that what is half done is taken away."""
+def _exit_on_signal(number: int, frame: object) -> None:
+    """Leave by an exception, so that half-written files are removed."""
     del frame
     sys.exit(128 + number)
 

@@ -1,4 +1,4 @@
-"""Checks and the array namespace."""
+"""The array namespace, conversions of arrays, and checks of arguments."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def namespace(*arrays: Array) -> Any:
 
 
 def is_numpy(*arrays: Array) -> bool:
-    """Return whether ``arrays`` are NumPy's."""
+    """Return whether ``arrays`` are NumPy arrays."""
     return is_numpy_namespace(array_namespace(*arrays))
 
 
 def _is_torch(*arrays: Array) -> bool:
-    """Whether ``arrays`` are PyTorch tensors."""
+    """Return whether ``arrays`` are PyTorch tensors."""
     return is_torch_namespace(array_namespace(*arrays))
 
 
@@ -40,7 +40,7 @@ def like(values: Array, reference: Array) -> Array:
 
 
 def to_numpy(array: Array) -> np.ndarray:
-    """Return a NumPy copy or view of ``array``, wherever it lives."""
+    """Return a NumPy copy or view of ``array``, from any device."""
     if isinstance(array, np.ndarray):
         return array
     if _is_torch(array):
@@ -49,23 +49,23 @@ def to_numpy(array: Array) -> np.ndarray:
 
 
 def take(array: Array, indices: np.ndarray, axis: int = 0) -> Array:
-    """Return rows (or columns, ``axis=1``) of ``array`` by NumPy ``indices``, on whatever device it lives."""
+    """Return rows (or columns, ``axis=1``) of ``array`` by NumPy ``indices``, on any device."""
     if isinstance(array, np.ndarray) and axis == 0 and 3 * len(indices) < len(array):
-        return array[indices]  # ndarray.take copies all of an array first whose columns lie together
+        return array[indices]  # ndarray.take would first copy all of a column-major array
     xp = array_namespace(array)
-    where = xp.asarray(np.ascontiguousarray(indices, dtype=np.int64), device=array.device)
-    return xp.take(array, where, axis=axis)
+    rows = xp.asarray(np.ascontiguousarray(indices, dtype=np.int64), device=array.device)
+    return xp.take(array, rows, axis=axis)
 
 
 def seed_of(rng: int | np.random.Generator | None) -> int:
-    """Return the seed that ``rng`` is, or one that is drawn from it; ``None`` draws one at random."""
+    """Return ``rng`` itself where it is a seed, else a seed drawn from it; ``None`` draws one at random."""
     if rng is None or isinstance(rng, np.random.Generator):
         return int(np.random.default_rng(rng).integers(2**31))
     return int(rng)
 
 
 def blocks(n: int, size: int) -> list[slice]:
-    """Return slices that cut ``n`` rows into runs of ``size``, the last one shorter."""
+    """Return slices that divide ``n`` rows into blocks of ``size``; the last may be shorter."""
     return [slice(a, min(a + size, n)) for a in range(0, n, size)]
 
 
@@ -81,7 +81,7 @@ def inner(x: Array, y: Array) -> float:
 
 
 def number(x: Array) -> float:
-    """Return a Python number of an array with one value, without what PyTorch knows of its derivatives."""
+    """Return the one value of an array as a Python number, detached from PyTorch's graph."""
     return float(x.detach() if _is_torch(x) else x)
 
 
@@ -93,21 +93,21 @@ def check(
     finite: bool = True,
     remedy: str = "check how it was made",
 ) -> Array:
-    """Return ``array`` when it has the ``shape`` (``None`` matches any length) and only finite numbers."""
+    """Return ``array`` where it has the ``shape`` (``None``: any length) and only finite numbers."""
     if shape is not None:
-        fits = len(array.shape) == len(shape) and all(
-            want is None or want == have for want, have in zip(shape, array.shape, strict=True)
+        has_shape = len(array.shape) == len(shape) and all(
+            size is None or size == actual_size for size, actual_size in zip(shape, array.shape, strict=True)
         )
-        if not fits:
-            wanted = "(" + ", ".join("any" if s is None else str(s) for s in shape) + ")"
-            raise refuse(name, f"shape {wanted}", f"shape {tuple(array.shape)}", remedy)
+        if not has_shape:
+            expected = "(" + ", ".join("any" if s is None else str(s) for s in shape) + ")"
+            raise refuse(name, f"shape {expected}", f"shape {tuple(array.shape)}", remedy)
     if finite:
         xp = array_namespace(array)
         if xp.isdtype(array.dtype, "real floating"):
-            fine = xp.isfinite(array)
-            if not bool(xp.all(fine)):
-                bad = int(xp.sum(xp.astype(~fine, xp.int64)))
-                raise refuse(name, "finite numbers", f"{bad} NaN or infinite values", remedy)
+            is_finite = xp.isfinite(array)
+            if not bool(xp.all(is_finite)):
+                n_bad = int(xp.sum(xp.astype(~is_finite, xp.int64)))
+                raise refuse(name, "finite numbers", f"{n_bad} NaN or infinite values", remedy)
     return array
 
 

@@ -1,14 +1,14 @@
-"""Errors, warnings and the form of every refusal: the ground floor, which imports nothing heavy."""
+"""Errors, warnings, and the form of every refusal; nothing heavy is imported here."""
 
 from __future__ import annotations
 
 
 class InvalidInput(ValueError):
-    """The caller handed in something that cannot be used; the message says what to do."""
+    """Input cannot be used; the message says what to do."""
 
 
 class NotConverged(RuntimeError):
-    """A numerical method stopped before it reached the accuracy that was asked for."""
+    """A numerical method stopped before it reached the required accuracy."""
 
 
 class MissingDependency(ImportError):
@@ -16,28 +16,28 @@ class MissingDependency(ImportError):
 
 
 class KfmapsWarning(UserWarning):
-    """Something unusual that still gives a correct answer."""
+    """Something unusual, with which results are still correct."""
 
 
 def refuse(name: str, expected: str, got: str, remedy: str) -> InvalidInput:
-    """Return the error "`name`: expected …, got …. Do ….", the one form of every refusal.
+    """Return the error "`name`: expected …, got …. Do …."; every refusal has this form.
 
     ``name``: the argument, option or file; ``expected`` and ``got``: noun phrases; ``remedy``: one or more sentences
-    about what to do; the first letter and the last full stop are put right.
+    that say what to do, whose first capital and last full stop may be left out.
     """
     problem = f"{name}: expected {expected}, got {got}"
     return InvalidInput(shown(f"{_sentence(problem, '')} {_sentence(remedy, remedy[:1].upper())}"))
 
 
 def _sentence(text: str, first: str) -> str:
-    """Return ``text`` with a full stop, unless it ends with a mark already, and with another first letter."""
+    """Return ``text`` with the letter ``first`` (if any) in front, and a full stop unless it ends with a mark."""
     return (first or text[:1]) + text[1:] + ("" if text.endswith((".", "?", "!")) else ".")
 
 
 def shown(text: str) -> str:
-    """Return ``text`` fit for a terminal: control characters, and all else that cannot be printed, by their codes.
+    """Return ``text`` with codes in place of control characters and others that cannot be printed.
 
-    A file may be called anything; its name must not move the cursor, change colours or run together with the next.
+    A file may have any name, and its name must not move the cursor, change colours or break the line.
     """
     if text.isprintable():
         return text

@@ -1,4 +1,4 @@
-"""How long work tells of its progress, and how long its stages take."""
+"""Progress callbacks of long work, and a timer of its stages."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 Progress = Callable[[str, float], None]
-"""Called with a stage's name and how much of it is done, from 0 to 1."""
+"""Called with the name of a stage and how much of it is done, from 0 to 1."""
 
-Done = Callable[[float], None]
+StageProgress = Callable[[float], None]
 """Called with how much of one stage is done, from 0 to 1."""
 
 CountProgress = Callable[[str, int, int], None]
-"""Called with what is done, how many are done, and how many there are."""
+"""Called with the name of the work, how many items are done, and how many there are."""
 
 
 class StageTimer:
-    """Tells ``progress`` of each stage, as ``report`` does, and keeps the ``seconds`` of those that are done."""
+    """Measures stages: calls ``progress`` at the start and end of each, and keeps its ``seconds``."""
 
     def __init__(self, progress: Progress | None = None) -> None:
         self.report: Progress = progress or (lambda _stage, _done: None)

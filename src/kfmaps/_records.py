@@ -66,8 +66,8 @@ class Setting:
 
     def records(self, kinds: Kinds) -> tuple[type, ...]:
         """Return the record classes that a value may have."""
-        known = kinds.get(self.hint) or tuple(record for hint in self.types for record in kinds.get(hint, ()))
-        return known or tuple(hint for hint in self.types if isinstance(hint, type) and is_dataclass(hint))
+        registered = kinds.get(self.hint) or tuple(record for hint in self.types for record in kinds.get(hint, ()))
+        return registered or tuple(hint for hint in self.types if isinstance(hint, type) and is_dataclass(hint))
 
     def values(self, kinds: Kinds) -> str:
         """Return its range or choices in words."""
@@ -88,16 +88,16 @@ class Setting:
 
     def check(self, value: object, label: str, remedy: str = "") -> None:
         """Raise :class:`InvalidInput`, beginning with ``label``, when the field cannot have ``value``."""
-        fits, wanted, usual = self._judge(value)
-        remedy = remedy or usual
+        fits, expected, usual_remedy = self._judge(value)
+        remedy = remedy or usual_remedy
         if fits or (value is None and self.optional):
             return
-        if not wanted:
+        if not expected:
             default = self.default() if callable(self.default) else self.default
             example = f"{type(default).__name__}()" if is_dataclass(default) else ""
-            wanted = f"a record such as {example}" if example else "a record"
+            expected = f"a record such as {example}" if example else "a record"
             remedy = f"write {self.name}={example}" if example else remedy
-        raise refuse(label, wanted + (f", or {self.none}" if self.optional else ""), repr(value)[:80], remedy)
+        raise refuse(label, expected + (f", or {self.none}" if self.optional else ""), repr(value)[:80], remedy)
 
     def _judge(self, value: object) -> tuple[bool, str, str]:
         """Whether ``value`` fits, what is expected, in words (none of a record), and what to do where it does not."""
@@ -109,16 +109,16 @@ class Setting:
             return isinstance(value, bool | np.bool_), "true or false", remedy
         for plain, number, words in ((int, Integral, "a whole number"), (float, Real, "a number")):
             if plain in types:
-                real = isinstance(value, number) and not isinstance(value, bool) and math.isfinite(value)
+                is_number = isinstance(value, number) and not isinstance(value, bool) and math.isfinite(value)
                 span = self._span()
-                return real and self._inside(value), f"{words}{span and f', {span}'}", remedy
+                return is_number and self._inside(value), f"{words}{span and f', {span}'}", remedy
         if str in types:
             return isinstance(value, str), "text", remedy
         if any(get_origin(hint) is tuple for hint in types):
             return isinstance(value, tuple), "a tuple", f"write {self.name}=(...,)"
         records = tuple(hint for hint in types if isinstance(hint, type) and is_dataclass(hint))
-        own = len(records) < len(types) and callable(value) and not isinstance(value, type)
-        return own or isinstance(value, records), "", remedy
+        is_custom = len(records) < len(types) and callable(value) and not isinstance(value, type)
+        return is_custom or isinstance(value, records), "", remedy
 
     def _inside(self, value: Any) -> bool:
         bounds = ((self.above, gt), (self.low, ge), (self.high, le), (self.below, lt))
@@ -152,22 +152,22 @@ def settings_record(cls: type[_T]) -> type[_T]:
         if name not in vars(cls):
             setattr(cls, name, usual)
     text = [cleandoc(cls.__doc__ or ""), "", "Attributes", "----------"]
-    made: Any = dataclass(frozen=True)(cls)
-    made.is_settings_record = True
-    for f in fields(made):
+    record: Any = dataclass(frozen=True)(cls)
+    record.is_settings_record = True
+    for f in fields(record):
         text += [f"{f.name} : {f.type}", f"    {f.metadata.get('help', '')}"]
-    made.__doc__ = "\n".join(text)
-    return made
+    record.__doc__ = "\n".join(text)
+    return record
 
 
 @lru_cache(maxsize=64)
 def settings_of(cls: type) -> Mapping[str, Setting]:
     """Return the settings of a record class, the fields of any dataclass, by name."""
-    hints, found = get_type_hints(cls), {}
+    hints, settings = get_type_hints(cls), {}
     for f in fields(cls):
         default = f.default if f.default is not MISSING else f.default_factory
-        found[f.name] = Setting(f.name, hints[f.name], default, **f.metadata)
-    return found
+        settings[f.name] = Setting(f.name, hints[f.name], default, **f.metadata)
+    return settings
 
 
 def check_record(record: object) -> None:
@@ -197,9 +197,9 @@ def record_as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], 
     """
     kind = type(value).__name__
     if type(value) is kinds.get(kind) or getattr(type(value), "is_settings_record", False):
-        told = [f.name for f in fields(value) if getattr(value, f.name) or not f.metadata.get("python")]
-        inside = {key: record_as_dict(getattr(value, key), kinds, name) for key in told}
-        return {"kind": kind, **inside} if kind in kinds else inside
+        names = [f.name for f in fields(value) if getattr(value, f.name) or not f.metadata.get("python")]
+        content = {key: record_as_dict(getattr(value, key), kinds, name) for key in names}
+        return {"kind": kind, **content} if kind in kinds else content
     if isinstance(value, tuple):
         return tuple(record_as_dict(one, kinds, name) for one in value)
     if isinstance(value, np.generic):
@@ -220,35 +220,35 @@ def update(record: _T, values: JsonObject, fresh: Any, kinds: Kinds) -> _T:
 
 def _updated(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds: Kinds) -> Any:
     """A record of class ``cls`` with ``values``, the rest as in ``current`` or by default."""
-    known, changes = settings_of(cls), {}
+    settings, changes = settings_of(cls), {}
     for name, value in _table(values, path).items():
-        if name not in known:
-            wanted = f"one of {', '.join(known)}" if known else "no setting"
+        if name not in settings:
+            expected = f"one of {', '.join(settings)}" if settings else "no setting"
             remedy = "check the spelling; files of another version of kfmaps must be made anew"
-            raise refuse(path or "settings", wanted, repr(name), remedy)
+            raise refuse(path or "settings", expected, repr(name), remedy)
         now, then = getattr(current, name, None), getattr(fresh, name, None)
-        changes[name] = _value(known[name], value, now, then, f"{path}.{name}" if path else name, kinds)
+        changes[name] = _value(settings[name], value, now, then, f"{path}.{name}" if path else name, kinds)
     if current is not None:
         return replace(current, **changes)
-    for one in known.values():
-        if one.default is MISSING and one.name not in changes:
-            wanted = f"a value ({one.values(kinds)})"
-            raise refuse(f"{path}.{one.name}", wanted, "none", f"give one: {cls.__name__} needs it")
+    for item in settings.values():
+        if item.default is MISSING and item.name not in changes:
+            expected = f"a value ({item.values(kinds)})"
+            raise refuse(f"{path}.{item.name}", expected, "none", f"give one: {cls.__name__} needs it")
     return cls(**changes)
 
 
-def _value(one: Setting, value: Any, current: Any, fresh: Any, label: str, kinds: Kinds) -> Any:
-    records = one.records(kinds)
-    if one.optional and (value is None or (isinstance(value, str) and value.lower() in NOTHING)):
+def _value(item: Setting, value: Any, current: Any, fresh: Any, label: str, kinds: Kinds) -> Any:
+    records = item.records(kinds)
+    if item.optional and (value is None or (isinstance(value, str) and value.lower() in NOTHING)):
         return None
-    if len(records) == 1 and not one.optional:
+    if len(records) == 1 and not item.optional:
         return _updated(records[0], value, current, fresh, label, kinds)
-    if records and not (value is None and not one.optional):
-        return _one_of(records, one, value, current, fresh, label, kinds)
-    if any(get_origin(hint) is tuple for hint in one.types):
+    if records and not (value is None and not item.optional):
+        return _one_of(records, item, value, current, fresh, label, kinds)
+    if any(get_origin(hint) is tuple for hint in item.types):
         return _tuple(value, label)
-    value = float(value) if type(value) is int and float in one.types else value
-    one.check(value, label)
+    value = float(value) if type(value) is int and float in item.types else value
+    item.check(value, label)
     return value
 
 
@@ -258,16 +258,16 @@ def _one_of(
     """A record of one of several kinds."""
     table = dict(_table({"kind": value} if isinstance(value, str) else value, label))
     by_name = {record.__name__.lower(): record for record in records}
-    present = type(current).__name__.lower()
-    kind = table.pop("kind", present if present in by_name or len(records) > 1 else next(iter(by_name)))
+    current_kind = type(current).__name__.lower()
+    kind = table.pop("kind", current_kind if current_kind in by_name or len(records) > 1 else next(iter(by_name)))
     if one.optional and kind == "none" and not table:
         return None
     if not isinstance(kind, str) or kind.lower() not in by_name:
         got = "none" if kind == "nonetype" else repr(kind)
         raise refuse(f"{label}.kind", "one of " + ", ".join(by_name), got, "choose one of them")
     cls = by_name[kind.lower()]
-    begin = next((record for record in (current, fresh) if type(record) is cls), None)
-    return _updated(cls, table, begin, None, label, kinds)
+    base = next((record for record in (current, fresh) if type(record) is cls), None)
+    return _updated(cls, table, base, None, label, kinds)
 
 
 def _table(value: object, label: str) -> JsonObject:
@@ -290,15 +290,15 @@ def short_repr(self: object) -> str:
 
     A dataclass with arrays says ``__repr__ = short_repr``; records of settings have it from :func:`settings_record`.
     """
-    shown = []
+    parts = []
     for f in fields(cast(Any, self)):
         value = getattr(self, f.name)
         default = f.default if f.default_factory is MISSING else f.default_factory()
         shape = getattr(value, "shape", None)
-        same = type(value) is type(default) and (0 in shape if shape else value == default)
-        if not (value is default or same):
-            shown.append(f"{f.name}={_shortened(value)}")
-    return f"{type(self).__name__}({', '.join(shown)})"
+        is_default = type(value) is type(default) and (0 in shape if shape else value == default)
+        if not (value is default or is_default):
+            parts.append(f"{f.name}={_shortened(value)}")
+    return f"{type(self).__name__}({', '.join(parts)})"
 
 
 def _shortened(value: object) -> str:

@@ -1,8 +1,8 @@
-"""BLAS threads and Python threads, kept from multiplying each other.
+"""Python threads in place of BLAS threads.
 
-Several BLAS threads make factorisations, triangular solves and small products slower, and on a busy machine
-much slower. So BLAS is held to one thread around such loops and the parallelism sits above it, in Python
-threads: NumPy and SciPy release the interpreter's lock inside their products and solves.
+Several BLAS threads make factorisations, triangular solves and small products slower, and much slower on a busy
+machine. So BLAS uses one thread around such loops, and Python threads run in parallel: NumPy and SciPy release the
+interpreter's lock inside their products and solves.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def available_cores() -> int:
 
 
 class _Depth(local):
-    """How deep the current thread is inside :func:`one_blas_thread`."""
+    """Depth of the current thread inside :func:`one_blas_thread`."""
 
     value = 0
 
@@ -40,15 +40,14 @@ _depth = _Depth()
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
-    """Return a context in which BLAS and OpenMP run on one thread; within another one it costs nothing.
+    """Return a context in which BLAS and OpenMP run on one thread; inside another one it costs nothing.
 
-    To look through all loaded libraries takes some milliseconds, more than a small search: so it is done again only
-    after something has been imported.
+    Listing all loaded libraries takes some milliseconds, so it is done again only after something has been imported.
     """
     if _depth.value:
         yield
         return
-    with _libraries(len(sys.modules)).limit(limits=1):
+    with _controller(len(sys.modules)).limit(limits=1):
         _depth.value += 1
         try:
             yield
@@ -57,36 +56,36 @@ def one_blas_thread() -> Iterator[None]:
 
 
 @lru_cache(1)
-def _libraries(modules: int) -> ThreadpoolController:
-    """Return the control of all BLAS and OpenMP libraries; ``modules``: how many modules are imported."""
-    del modules
+def _controller(n_modules: int) -> ThreadpoolController:
+    """Return the controller of all BLAS and OpenMP libraries; ``n_modules``: number of imported modules."""
+    del n_modules
     return ThreadpoolController()
 
 
 def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:
-    """Return ``[function(item) for item in items]``, by Python threads, with BLAS held to one thread.
+    """Return ``[function(item) for item in items]``, computed by Python threads with one BLAS thread each.
 
-    ``threads``: how many at once; ``None`` takes every available core. With 1 it is a plain loop.
+    ``threads``: how many at once, by default one for each available core; 1 gives a plain loop.
     """
     items = list(items)
     count = min(threads or available_cores(), max(len(items), 1))
     with one_blas_thread():
         if count == 1:
             return [function(item) for item in items]
-        with ThreadPoolExecutor(count, initializer=_held) as pool:
+        with ThreadPoolExecutor(count, initializer=_enter_worker) as pool:
             return list(pool.map(function, items))
 
 
-def _held() -> None:
-    """Tell a new worker thread that BLAS is on one thread already, for the whole process."""
+def _enter_worker() -> None:
+    """Mark a new worker thread as inside :func:`one_blas_thread`, whose limit holds for the whole process."""
     _depth.value = 1
-    if _per_thread():
-        _libraries(len(sys.modules)).limit(limits=1)
+    if _has_thread_limits():
+        _controller(len(sys.modules)).limit(limits=1)
 
 
 @cache
-def _per_thread() -> bool:
-    """Whether a BLAS on OpenMP is loaded, which keeps its limit for each thread apart."""
+def _has_thread_limits() -> bool:
+    """Return whether a BLAS on OpenMP is loaded, whose limit holds for one thread only."""
     return any(
         library["user_api"] == "blas" and library.get("threading_layer") == "openmp" for library in threadpool_info()
     )

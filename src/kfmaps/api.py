@@ -85,12 +85,12 @@ def match(
         When the eigensolver misses its tolerance.
     """
     _check_config(config)
-    given = (source, target)
-    meshes = [as_mesh(shape, name) for shape, name in zip(given, ("source", "target"), strict=True)]
-    first, second = (one if isinstance(one, Shape) else mesh for one, mesh in zip(given, meshes, strict=True))
-    marks = as_landmarks(landmarks, given, meshes)
+    shapes = (source, target)
+    meshes = [as_mesh(shape, name) for shape, name in zip(shapes, ("source", "target"), strict=True)]
+    first, second = (one if isinstance(one, Shape) else mesh for one, mesh in zip(shapes, meshes, strict=True))
+    pairs = as_landmarks(landmarks, shapes, meshes)
     with _telling(progress) as report:
-        return matching.match(first, second, config, landmarks=marks, descriptors=descriptors, rng=rng, progress=report)
+        return matching.match(first, second, config, landmarks=pairs, descriptors=descriptors, rng=rng, progress=report)
 
 
 def prepare(
@@ -123,7 +123,7 @@ def prepare(
 
 
 def transfer(
-    values: ArrayLike, found: MapLike, lost: ArrayLike | None = None, *, source: ShapeLike | None = None
+    values: ArrayLike, map: MapLike, lost: ArrayLike | None = None, *, source: ShapeLike | None = None
 ) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
@@ -131,7 +131,7 @@ def transfer(
     ----------
     values : (n_s, ...) array
         Functions, labels, colours: anything with a row per source vertex.
-    found : Match, path, PointMap, or (n_t,) whole numbers
+    map : Match, path, PointMap, or (n_t,) whole numbers
         The map.
     lost : optional
         What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
@@ -150,7 +150,7 @@ def transfer(
         When the map names a vertex that has no value, or the source has another number of vertices.
     """
     mesh = None if source is None else as_mesh(source, "source")
-    return carried(values, as_map(found, mesh), None if mesh is None else mesh.faces, lost)
+    return carried(values, as_map(map, mesh), None if mesh is None else mesh.faces, lost)
 
 
 def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | PointMap) -> np.ndarray:
@@ -177,15 +177,15 @@ def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | Poi
     """
     mesh = as_mesh(source, "source")
     points = predicted if isinstance(predicted, PointMap) else as_map(predicted).target_to_source
-    goal = true if isinstance(true, PointMap | tuple) else np.asarray(true)
-    if isinstance(goal, tuple):
-        goal, rows = (check(np.asarray(part), "truth", shape=(None,)) for part in goal)
+    true_points = true if isinstance(true, PointMap | tuple) else np.asarray(true)
+    if isinstance(true_points, tuple):
+        true_points, rows = (check(np.asarray(part), "truth", shape=(None,)) for part in true_points)
         n_t = len(points.faces if isinstance(points, PointMap) else points)
-        rows = check_map(rows, n_t, len(goal), "the truth's target vertices")
+        rows = check_map(rows, n_t, len(true_points), "the truth's target vertices")
         points = PointMap(points.faces[rows], points.weights[rows]) if isinstance(points, PointMap) else points[rows]
-    if isinstance(points, PointMap) or isinstance(goal, PointMap):
-        return evaluate.precise_errors(mesh, points, goal)
-    return evaluate.geodesic_errors(mesh, points, goal)
+    if isinstance(points, PointMap) or isinstance(true_points, PointMap):
+        return evaluate.precise_errors(mesh, points, true_points)
+    return evaluate.geodesic_errors(mesh, points, true_points)
 
 
 def zoomout(
@@ -235,18 +235,18 @@ def zoomout(
             got = f"a {type(basis).__name__}"
             raise refuse(name, "a Basis or a Shape", got, "give kfmaps.laplace_basis(mesh, k) or kfmaps.prepare(mesh)")
     k_s, k_t = (basis.functions.shape[1] for basis in bases)
-    given = check(np.asarray(C, dtype=np.float64), "C", shape=(None, None), remedy="give a functional map (k_t, k_s)")
-    if given.shape[0] > k_t or given.shape[1] > k_s:
-        got = f"{given.shape[0]} × {given.shape[1]}"
+    initial = check(np.asarray(C, dtype=np.float64), "C", shape=(None, None), remedy="give a functional map (k_t, k_s)")
+    if initial.shape[0] > k_t or initial.shape[1] > k_s:
+        got = f"{initial.shape[0]} × {initial.shape[1]}"
         raise refuse("C", f"at most {k_t} × {k_s} entries", got, "compute more functions")
     refine = ZoomOut(
-        min(given.shape) if start is None else start, min(k_s, k_t) if stop is None else stop, step, samples
+        min(initial.shape) if start is None else start, min(k_s, k_t) if stop is None else stop, step, samples
     )
-    return refine(given, bases[0], bases[1], threads=threads)
+    return refine(initial, bases[0], bases[1], threads=threads)
 
 
 def render(
-    found: MapLike,
+    map: MapLike,
     source: ShapeLike | None = None,
     target: ShapeLike | None = None,
     *,
@@ -259,7 +259,7 @@ def render(
 
     Parameters
     ----------
-    found : Match, path, PointMap, or (n_t,) whole numbers
+    map : Match, path, PointMap, or (n_t,) whole numbers
     source, target : as :func:`match` takes them, optional
         By default those of the match, or those that the map's file names.
     output : path, optional
@@ -283,14 +283,14 @@ def render(
     """
     from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
 
-    drawn, shapes = _map_and_shapes(found, source, target)
-    points = check_map(drawn, len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
+    match, shapes = _map_and_shapes(map, source, target)
+    points = check_map(match, len(shapes[0].vertices), len(shapes[1].vertices), partial=True)
     if truth is not None:
-        known = _truth(truth, shapes)
-        options.setdefault("errors", painted_errors(*shapes, points, known.source, known.target))
-        seen = true_views(*shapes, known.source, known.target, options.get("view"))
-        options = {"target_view": seen[1], **options, "view": seen[0]}
-    figure = match_figure(*shapes, drawn, **options)
+        true_vertices = _truth(truth, shapes)
+        options.setdefault("errors", painted_errors(*shapes, points, true_vertices.source, true_vertices.target))
+        views = true_views(*shapes, true_vertices.source, true_vertices.target, options.get("view"))
+        options = {"target_view": views[1], **options, "view": views[0]}
+    figure = match_figure(*shapes, match, **options)
     if output is not None:
         picture_format(output)
         with atomic_output(output, force) as temporary:
@@ -299,7 +299,7 @@ def render(
 
 
 def view(
-    found: MapLike,
+    map: MapLike,
     source: ShapeLike | None = None,
     target: ShapeLike | None = None,
     *,
@@ -332,13 +332,13 @@ def view(
     """
     from kfmaps.viz.result_pages import in_notebook, match_page, open_page, show_in_cell
 
-    made, shapes = _map_and_shapes(found, source, target)
-    drawn, path = MeshFile(shapes[0]), made.source_file.path if source is None else source
+    match, shapes = _map_and_shapes(map, source, target)
+    source_file, path = MeshFile(shapes[0]), match.source_file.path if source is None else source
     if is_file(path) and Path(path).is_file():
-        file = map_mesh_file(Path(path), made, "source", Path())
-        drawn = replace(file, mesh=shapes[0]) if len(file.mesh.faces) == len(shapes[0].faces) else drawn
-    known = None if truth is None else _truth(truth, shapes)
-    html = match_page(made, drawn, shapes[1], names, truth=known, descriptors=descriptors, up=up)
+        file = map_mesh_file(Path(path), match, "source", Path())
+        source_file = replace(file, mesh=shapes[0]) if len(file.mesh.faces) == len(shapes[0].faces) else source_file
+    true_vertices = None if truth is None else _truth(truth, shapes)
+    html = match_page(match, source_file, shapes[1], names, truth=true_vertices, descriptors=descriptors, up=up)
     if output is not None:
         write_text(output, html, force)
         return Path(output)
@@ -347,11 +347,11 @@ def view(
     return open_page(html)[0]
 
 
-def picture_html(found: Match, words: str) -> str:
-    """Return the picture of a match as an image of HTML, with ``words`` for those who do not see it."""
+def picture_html(match: Match, description: str) -> str:
+    """Return the picture of a match as an image of HTML, with ``description`` for those who do not see it."""
     from kfmaps.viz.result_pages import figure_html
 
-    return figure_html(render(found), words)
+    return figure_html(render(match), description)
 
 
 def _check_config(config: object) -> None:
@@ -371,9 +371,9 @@ def _truth(truth: TruthLike | Truth, shapes: tuple[Mesh, Mesh]) -> Truth:
     if isinstance(truth, Truth):
         return truth
     if not isinstance(truth, tuple):
-        points = check_map(truth, len(shapes[0].vertices), len(shapes[1].vertices), "truth", lost=True)
-        known = np.flatnonzero(points >= 0)
-        truth = points[known], known
+        points = check_map(truth, len(shapes[0].vertices), len(shapes[1].vertices), "truth", partial=True)
+        matched = np.flatnonzero(points >= 0)
+        truth = points[matched], matched
     both = [check(np.asarray(part), "truth", shape=(None,), remedy="give vertex numbers") for part in truth]
     if len(both) != 2 or len(both[0]) != len(both[1]) or len(both[0]) == 0:
         got = " and ".join(str(len(part)) for part in both)
@@ -382,19 +382,19 @@ def _truth(truth: TruthLike | Truth, shapes: tuple[Mesh, Mesh]) -> Truth:
 
 
 def _map_and_shapes(
-    found: MapLike, source: ShapeLike | None, target: ShapeLike | None
+    map: MapLike, source: ShapeLike | None, target: ShapeLike | None
 ) -> tuple[Match, tuple[Mesh, Mesh]]:
     """A map and its two shapes: as given, else the match's own, else those that the map's file names."""
-    beside = Path(found) if is_file(found) else Path()
-    found = load_map(beside) if is_file(found) else found
+    map_path = Path(map) if is_file(map) else Path()
+    map = load_map(map_path) if is_file(map) else map
     meshes = []
-    for given, side in ((source, "source"), (target, "target")):
-        if given is not None:
-            meshes.append(as_mesh(given, side))
-        elif hasattr(found, side):
-            meshes.append(getattr(found, side))
-        elif isinstance(found, Match):
-            meshes.append(map_mesh(None, found, side, beside, f"give {side}="))
+    for shape, side in ((source, "source"), (target, "target")):
+        if shape is not None:
+            meshes.append(as_mesh(shape, side))
+        elif hasattr(map, side):
+            meshes.append(getattr(map, side))
+        elif isinstance(map, Match):
+            meshes.append(map_mesh(None, map, side, map_path, f"give {side}="))
         else:
             raise refuse(side, "the shape", "a map alone", f"give {side}=")
-    return as_map(found, meshes[0]), (meshes[0], meshes[1])
+    return as_map(map, meshes[0]), (meshes[0], meshes[1])

@@ -106,11 +106,11 @@ def _lines(record: Any, section: str, comments: bool) -> list[str]:
     return lines + tables
 
 
-def text_of(value: object, one: Setting) -> str:
+def text_of(value: object, item_setting: Setting) -> str:
     """Return a value as TOML."""
     if isinstance(value, tuple):
-        return f"[{', '.join(text_of(item, one) for item in value)}]"
-    return json.dumps(one.none if value is None else record_as_dict(value, {}), ensure_ascii=False)
+        return f"[{', '.join(text_of(item, item_setting) for item in value)}]"
+    return json.dumps(item_setting.none if value is None else record_as_dict(value, {}), ensure_ascii=False)
 
 
 def with_assignments(
@@ -121,27 +121,27 @@ def with_assignments(
     ``assignments``: values are TOML; quotes around words may be left out; ``options``: paths and values by the option
     that gave them, applied before: ``{"--kernel": ("kernel", "laplacian")}``.
     """
-    given = dict(options or {})
+    values = dict(options or {})
     for text in assignments:
         path, sign, value = (part.strip() for part in text.partition("="))
         if not sign or not path or not value:
             raise refuse("--set", "NAME=VALUE, such as weights.laplacian=0.5", repr(text), "see `kfmaps config`")
-        given[f"--set {path}"] = (path, _literal(value))
+        values[f"--set {path}"] = (path, _literal(value))
 
-    def made(labels: Iterable[str]) -> Config | InvalidInput:
+    def build(labels: Iterable[str]) -> Config | InvalidInput:
         try:
-            return from_dict(_nested(dict(given[label] for label in labels)), base)
+            return from_dict(_nested(dict(values[label] for label in labels)), base)
         except InvalidInput as error:
             return error
 
     # All at once, since one value may be right only beside another.
-    config = made(given)
+    config = build(values)
     if isinstance(config, Config):
         return config
-    guilty = [label for label in given if isinstance(made([other for other in given if other != label]), Config)]
-    guilty = guilty or [label for label in given if isinstance(made([label]), InvalidInput)]
+    culprits = [label for label in values if isinstance(build([other for other in values if other != label]), Config)]
+    culprits = culprits or [label for label in values if isinstance(build([label]), InvalidInput)]
     # A pair that contradicts each other is named whole; of several unrelated faults, the first.
-    raise InvalidInput(f"{', '.join(guilty[:2])}: {config}" if guilty else str(config)) from config
+    raise InvalidInput(f"{', '.join(culprits[:2])}: {config}" if culprits else str(config)) from config
 
 
 def similar_settings(option: str) -> list[str]:
@@ -211,20 +211,22 @@ def with_settings(command: Callable[..., Any]) -> Callable[..., Any]:
     signature = inspect.signature(command, eval_str=True)
     keyword = inspect.Parameter.KEYWORD_ONLY
     parameters = [p.replace(kind=keyword) for p in signature.parameters.values() if p.name != "settings"]
-    made = {option.strip("-"): _option(option) for option in OPTIONS} | _GENERAL
-    parameters += [inspect.Parameter(name, keyword, annotation=kind, default=None) for name, kind in made.items()]
+    annotations = {option.strip("-"): _option(option) for option in OPTIONS} | _GENERAL
+    parameters += [
+        inspect.Parameter(name, keyword, annotation=kind, default=None) for name, kind in annotations.items()
+    ]
 
     @functools.wraps(command)
-    def whole(**given: Any) -> Any:
-        values = {option: (path, given.pop(option.strip("-"))) for option, (path, _) in OPTIONS.items()}
+    def wrapper(**arguments: Any) -> Any:
+        values = {option: (path, arguments.pop(option.strip("-"))) for option, (path, _) in OPTIONS.items()}
         options = {option: (path, value) for option, (path, value) in values.items() if value is not None}
-        chosen = Chosen(given.pop("preset"), given.pop("config"), options, tuple(given.pop("assign") or ()))
-        return command(settings=chosen, **given)
+        choice = Chosen(arguments.pop("preset"), arguments.pop("config"), options, tuple(arguments.pop("assign") or ()))
+        return command(settings=choice, **arguments)
 
     # typing cannot express a signature that is made from a table; Typer reads these two attributes.
-    whole.__signature__ = signature.replace(parameters=parameters)  # pyright: ignore[reportAttributeAccessIssue]
-    whole.__annotations__ = {p.name: p.annotation for p in parameters}
-    return whole
+    wrapper.__signature__ = signature.replace(parameters=parameters)  # pyright: ignore[reportAttributeAccessIssue]
+    wrapper.__annotations__ = {p.name: p.annotation for p in parameters}
+    return wrapper
 
 
 def _typer(*names: str, **more: Any) -> Any:

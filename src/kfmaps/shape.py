@@ -1,4 +1,4 @@
-"""What is worked out once per shape, whatever it is matched with."""
+"""Prepared shapes: what is computed once per shape, whatever it is matched with."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vert
 from kfmaps.geometry.mesh import mirror_mesh as mirrored_mesh
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 
-FEW, NEARLY = 3_000, 1e-2
-"""Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
-DESCRIBED = 7_000
-"""Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
-_SUPPORT, _IN_BALL = 10_000, 550
-"""Support points of SHOT, and how many lie in a ball of a large surface that then has fewer in all: of bodies 340, of
-skulls with their two walls 1,000."""
+EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
+"""Number of vertices up to which eigenfunctions are exact to rounding, and the eigensolver's tolerance above it."""
+MAX_SHOT_VERTICES = 7_000
+"""Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
+_SUPPORT, _BALL_SUPPORT = 10_000, 550
+"""Most support points of SHOT on the whole surface, and in one ball on average. With 10,000 in all a ball has 340 on
+bodies, and 1,000 on skulls, whose walls are double."""
 _NO_SURFACE = (
     "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
     "told: give three landmarks, or a mesh made from the points"
 )
-_NOISY = 0.24
-"""Roughness above which a mesh is smoothed: of 5,000 vertices with noise of more than 0.006 √area."""
-_NORMALS = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
+_MAX_ROUGHNESS = 0.24
+"""Roughness above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much."""
+_NORMAL_WEIGHT = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,19 +51,19 @@ class Shape:
     mesh : Mesh
         Scaled to unit area, vertices in the order given.
     basis : Basis
-        Of as many functions as the configuration needs in all. Vertices that lie on no surface, and all but the first
-        in one place, have no area and the functions of the vertex that they count as (:attr:`cleaned`).
+        With as many functions as the configuration needs. Vertices on no surface, and all but the first of several in
+        one place, have no area and the functions of the vertex that replaces them (:attr:`cleaned`).
     shot : (n, 352) float64, of a large shape float32, or None
-        The SHOT descriptor when the configuration asks for it; a point cloud has none.
+        The SHOT descriptor, where the configuration has it; a point cloud has none.
     name : str
     seconds : dict of str to float
-        Time each stage took.
+        Time of each stage.
     laplacian : str
-        Which one the functions are of.
+        Kind of the Laplacian whose eigenfunctions the basis has.
     shot_radius : float or None
-        Of ``shot``, in units of √area.
+        Radius of ``shot``, in units of √area.
     extent : float or None
-        √area before it was scaled; ``None`` of a point cloud.
+        √area before scaling; ``None`` for a point cloud.
     """
 
     mesh: Mesh
@@ -79,20 +79,23 @@ class Shape:
 
     @cached_property
     def cleaned(self) -> tuple[Shape, CleanedMesh]:
-        """The shape with each place once, faces outward, without unused vertices and specks, and how it is numbered.
+        """The shape on which a match works, and the record of its cleaning.
 
-        A match works on that; a shape that has nothing of the kind is returned as it is.
+        It has welded vertices, outward faces, and neither unused vertices nor specks. A shape without any of these
+        defects is returned as it is.
         """
-        part = face_outward(clean_mesh(self.mesh, specks=True))
-        if part.whole:
-            return (self if part.mesh is self.mesh else replace(self, mesh=part.mesh)), part
-        kept = part.to_original
-        few = _renumbered(self.basis, kept, take(self.basis.mass, kept))
-        return replace(self, mesh=part.mesh, basis=few, shot=None if self.shot is None else self.shot[kept]), part
+        cleaned = face_outward(clean_mesh(self.mesh, specks=True))
+        if cleaned.whole:
+            return (self if cleaned.mesh is self.mesh else replace(self, mesh=cleaned.mesh)), cleaned
+        rows = cleaned.to_original
+        basis = _renumber(self.basis, rows, take(self.basis.mass, rows))
+        return replace(
+            self, mesh=cleaned.mesh, basis=basis, shot=None if self.shot is None else self.shot[rows]
+        ), cleaned
 
     @property
     def given_mesh(self) -> Mesh:
-        """The mesh without the faces that were found for a point cloud."""
+        """The mesh without the faces that preparation adds to a point cloud."""
         return Mesh(self.mesh.vertices) if self.extent is None else self.mesh
 
 
@@ -109,20 +112,17 @@ class Descriptor(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class SampledShape:
-    """Some points of a shape that stand for all; made by :func:`sample_shape`."""
+    """Samples of a shape that stand for all its vertices; made by :func:`sample_shape`."""
 
-    shape: Shape  # a point cloud with the areas and functions of the surface that it was taken from
-    vertices: np.ndarray  # (q,): which they are
-    landmarks: np.ndarray  # (l,): where the landmarks are among them
+    shape: Shape  # a point cloud with areas and functions of the sampled surface
+    vertices: np.ndarray  # (q,): the samples
+    landmarks: np.ndarray  # (l,): positions of the landmarks among the samples
 
 
 def sample_shape(
     shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | np.random.Generator = 0
 ) -> SampledShape:
-    """Return ``shape`` on about ``count`` stratified points and the ``landmarks (l,)``; itself when it has no more.
-
-    ``None`` takes all points.
-    """
+    """Return about ``count`` stratified samples of ``shape`` and the ``landmarks (l,)``; ``None`` takes all."""
     n = len(shape.mesh.vertices)
     if count is None or n <= count:
         return SampledShape(shape, np.arange(n), landmarks)
@@ -137,78 +137,79 @@ def sample_shape(
 def prepare(
     mesh: Mesh, config: Config | None = None, *, name: str = "shape", progress: Progress | None = None
 ) -> Shape:
-    """Do the work that depends on one shape alone, so that matching it with many others reuses it.
+    """Compute what depends on one shape alone, so that matches with many others share it.
 
-    ``mesh``: in any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, faces
-    that look inward are turned, second sides of faces, specks and vertices that no face uses are left out
-    (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), with a
-    warning. ``config``: its basis, descriptor and refinement settings count.
+    Coincident open edges are connected and inward faces turned. Second sides of faces, specks and unused vertices are
+    left out (:mod:`kfmaps.geometry.clean`), and much noise is smoothed
+    (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is
+    a point cloud. ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
-    clock = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
-    part = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
+    timer = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
+    cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud = len(mesh.faces) == 0
-    noisy = not is_cloud and roughness(part.mesh.vertices, part.mesh.faces) > _NOISY
+    noisy = not is_cloud and roughness(cleaned.mesh.vertices, cleaned.mesh.faces) > _MAX_ROUGHNESS
     if noisy:
-        part = replace(part, mesh=Mesh(project_noise(part.mesh.vertices), part.mesh.faces))
-    small = unit_area(part.mesh)
-    _check_size(small, name, config)
-    _tell(part, name, noisy)
+        cleaned = replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))
+    unit = unit_area(cleaned.mesh)
+    _check_size(unit, name, config)
+    _warn_of_cleaning(cleaned, name, noisy)
     if is_cloud and config.descriptors.shot:
-        surface = surface_of_cloud(small.vertices)
+        surface = surface_of_cloud(unit.vertices)
         if surface is None:
             warnings.warn(f"{name}: {_NO_SURFACE}", KfmapsWarning, stacklevel=2)
         else:
-            mesh = Mesh(surface.vertices[part.to_clean], part.to_original[surface.faces])
-            part = clean_mesh(mesh, specks=True)
-            small = unit_area(part.mesh)
-    kind, radius, threads = config.basis.laplacian, config.descriptors.shot_radius, config.threads
-    tolerance, local = EXACT if len(small.vertices) <= FEW else NEARLY, None
-    with clock("eigenfunctions"):
-        told = partial(clock.report, "eigenfunctions")
-        basis = laplace_basis(small, config.n_eigenfunctions, kind, threads=threads, progress=told, tolerance=tolerance)
+            mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
+            cleaned = clean_mesh(mesh, specks=True)
+            unit = unit_area(cleaned.mesh)
+    laplacian, radius, threads = config.basis.laplacian, config.descriptors.shot_radius, config.threads
+    size, local = config.n_eigenfunctions, None
+    tolerance = EXACT if len(unit.vertices) <= EXACT_EIGENPAIRS else LOOSE_TOLERANCE
+    with timer("eigenfunctions"):
+        stage = partial(timer.report, "eigenfunctions")
+        basis = laplace_basis(unit, size, laplacian, threads=threads, progress=stage, tolerance=tolerance)
     if config.descriptors.shot and len(mesh.faces):
-        with clock("SHOT"):
-            local = _local_descriptors(small, basis, radius, threads, lambda d: clock.report("SHOT", min(d, 0.99)))
+        with timer("SHOT"):
+            local = _local_descriptors(unit, basis, radius, threads, lambda d: timer.report("SHOT", min(d, 0.99)))
     radius = None if local is None else radius
-    size = None if is_cloud else float(np.sqrt(surface_area(part.mesh)))
-    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, clock.seconds, kind, radius, size)
-    if part.whole:
+    extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
+    shape = Shape(Mesh(unit.vertices, mesh.faces), basis, local, name, timer.seconds, laplacian, radius, extent)
+    if cleaned.whole:
         return shape
     mass = np.zeros(len(mesh.vertices))
-    mass[part.to_original] = basis.mass
-    whole = _renumbered(basis, part.to_clean, mass)
-    local = None if local is None else local[part.to_clean]
-    placed = replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
-    if not is_cloud:  # what a match works on is at hand
-        vars(placed)["cleaned"] = replace(shape, mesh=small), replace(part, mesh=small)
-    return placed
+    mass[cleaned.to_original] = basis.mass
+    whole_basis = _renumber(basis, cleaned.to_clean, mass)
+    local = None if local is None else local[cleaned.to_clean]
+    whole_shape = replace(shape, mesh=_scale_alike(mesh, cleaned, unit), basis=whole_basis, shot=local)
+    if not is_cloud:  # need not be computed again
+        vars(whole_shape)["cleaned"] = replace(shape, mesh=unit), replace(cleaned, mesh=unit)
+    return whole_shape
 
 
 def _local_descriptors(
     mesh: Mesh, basis: Basis, radius: float, threads: int | None = None, progress: Callable[[float], None] | None = None
 ) -> np.ndarray:
-    """SHOT of all vertices of a mesh of unit area, (n, 352); of more than :data:`DESCRIBED` from as many.
+    """Return SHOT at all vertices of a mesh of unit area, (n, 352), computed at :data:`MAX_SHOT_VERTICES` at most.
 
-    It changes little within a tenth of its radius: the others take the mean of the nearest three with like normals,
-    each weighted by the inverse of its squared distance.
+    SHOT changes little within a tenth of its radius. The other vertices take the mean of the nearest three with similar
+    normals, weighted by inverse squared distances.
     """
-    if len(mesh.vertices) <= DESCRIBED:
+    if len(mesh.vertices) <= MAX_SHOT_VERTICES:
         return shot(mesh, radius, threads=threads, progress=progress)
-    chosen = stratified_vertices(basis, DESCRIBED, 0)
-    few = mesh.vertices[chosen]
-    near = KDTree(few).query_ball_point(few[::8], radius, return_length=True)
-    samples = min(_SUPPORT, round(_IN_BALL * len(few) / near.mean()))
-    found = shot(mesh, radius, samples=samples, at=chosen, threads=threads, progress=progress)
-    places = np.hstack([mesh.vertices, _NORMALS * vertex_normals(mesh)])
-    away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())
-    weights = 1.0 / np.maximum(np.asarray(away) ** 2, 1e-12)
+    vertices = stratified_vertices(basis, MAX_SHOT_VERTICES, 0)
+    positions = mesh.vertices[vertices]
+    neighbours = KDTree(positions).query_ball_point(positions[::8], radius, return_length=True)
+    samples = min(_SUPPORT, round(_BALL_SUPPORT * len(positions) / neighbours.mean()))
+    sampled = shot(mesh, radius, samples=samples, at=vertices, threads=threads, progress=progress)
+    points = np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
+    distances, neighbours = KDTree(points[vertices]).query(points, k=3, workers=threads or available_cores())
+    weights = 1.0 / np.maximum(np.asarray(distances) ** 2, 1e-12)
     weights /= weights.sum(axis=1, keepdims=True)
-    # In single precision: of large shapes no other array takes as much memory, and time to have it.
-    single = weights.astype(np.float32).ravel()
-    spread = csr_array((single, np.asarray(near).ravel(), 3 * np.arange(len(places) + 1)))
-    result = np.asarray(spread @ found.astype(np.float32))
+    # In single precision, since no other array of a large shape takes as much memory.
+    weights_32 = weights.astype(np.float32).ravel()
+    interpolation = csr_array((weights_32, np.asarray(neighbours).ravel(), 3 * np.arange(len(points) + 1)))
+    result = np.asarray(interpolation @ sampled.astype(np.float32))
     length = np.sqrt(np.einsum("ij,ij->i", result, result))[:, None]
     np.divide(result, length, out=result, where=length > 0)
     return result
@@ -223,57 +224,57 @@ def mirror_image(shape: Shape) -> Shape:
     return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirror_shot(shape.shot))
 
 
-def _renumbered(basis: Basis, rows: np.ndarray, mass: Array) -> Basis:
-    """The basis with its functions' ``rows (m,)``, column by column, and another mass (m,)."""
+def _renumber(basis: Basis, rows: np.ndarray, mass: Array) -> Basis:
+    """Return the basis with ``rows (m,)`` of its functions, stored column by column, and the ``mass (m,)``."""
     return Basis(basis.eigenvalues, take(basis.functions.T, rows, axis=1).T, mass)
 
 
-def _placed(mesh: Mesh, part: CleanedMesh, small: Mesh) -> Mesh:
-    """All of ``mesh`` moved and scaled as ``part`` of it was to become ``small``."""
-    centre = part.mesh.vertices.mean(axis=0)
-    before, after = part.mesh.vertices - centre, small.vertices
-    far = np.unravel_index(np.abs(before).argmax(), before.shape)
-    vertices = (mesh.vertices - centre) * (after[far] / before[far])
-    vertices[part.to_original] = after
-    joined = ~part.unreferenced
-    vertices[joined] = after[part.to_clean[joined]]
+def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
+    """Move and scale all of ``mesh`` as its ``cleaned`` part was to become ``unit``."""
+    centre = cleaned.mesh.vertices.mean(axis=0)
+    centred, unit_vertices = cleaned.mesh.vertices - centre, unit.vertices
+    largest = np.unravel_index(np.abs(centred).argmax(), centred.shape)
+    vertices = (mesh.vertices - centre) * (unit_vertices[largest] / centred[largest])
+    vertices[cleaned.to_original] = unit_vertices
+    is_used = ~cleaned.unreferenced
+    vertices[is_used] = unit_vertices[cleaned.to_clean[is_used]]
     return Mesh(vertices, mesh.faces)
 
 
-def _tell(part: CleanedMesh, name: str, noisy: bool) -> None:
-    """One warning of what is connected, left out, turned or smoothed."""
-    what = "points in one place count as one" if len(part.mesh.faces) == 0 else "vertices on seams are connected"
-    told = [f"{part.n_welded} {what}"] * bool(part.n_welded)
-    told += [f"{part.specks} specks are left out"] * bool(part.specks)
-    told += [f"{part.doubled} second sides of faces are left out"] * bool(part.doubled)
-    if part.turned is not None:
-        told.append(f"{part.turned.sum()} of {len(part.turned)} faces are turned outward")
-    told += ["noisy vertices are projected to a smooth surface"] * noisy
-    if told:
-        warnings.warn(f"{name}: for the match {', '.join(told)}; the numbering is kept", KfmapsWarning, stacklevel=3)
+def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool) -> None:
+    """Warn once of what is connected, left out, turned or smoothed."""
+    welded = "points in one place count as one" if len(cleaned.mesh.faces) == 0 else "vertices on seams are connected"
+    changes = [f"{cleaned.n_welded} {welded}"] * bool(cleaned.n_welded)
+    changes += [f"{cleaned.specks} specks are left out"] * bool(cleaned.specks)
+    changes += [f"{cleaned.doubled} second sides of faces are left out"] * bool(cleaned.doubled)
+    if cleaned.turned is not None:
+        changes.append(f"{cleaned.turned.sum()} of {len(cleaned.turned)} faces are turned outward")
+    changes += ["noisy vertices are projected to a smooth surface"] * noisy
+    if changes:
+        warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=3)
 
 
 def _check_size(mesh: Mesh, name: str, config: Config) -> None:
     """Refuse a mesh that has too few vertices for as many eigenfunctions as ``config`` needs."""
     if len(mesh.vertices) <= config.n_eigenfunctions:
-        wanted = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
+        expected = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
         remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
-        raise refuse(name, wanted, str(len(mesh.vertices)), remedy)
+        raise refuse(name, expected, str(len(mesh.vertices)), remedy)
 
 
 def check_prepared(shape: Shape, config: Config) -> None:
     """Raise :class:`InvalidInput` when ``shape`` was prepared with other settings than ``config`` needs."""
     remedy = "prepare it with the configuration that it is matched with"
-    have = shape.basis.functions.shape[1]
-    if have < config.n_eigenfunctions:
-        raise refuse(shape.name, f"a shape with {config.n_eigenfunctions} eigenfunctions", f"one with {have}", remedy)
+    size, least = shape.basis.functions.shape[1], config.n_eigenfunctions
+    if size < least:
+        raise refuse(shape.name, f"a shape with {least} eigenfunctions", f"one with {size}", remedy)
     if shape.laplacian != config.basis.laplacian:
-        wanted = f"a shape prepared with the {config.basis.laplacian} Laplacian"
-        raise refuse(shape.name, wanted, f"one with the {shape.laplacian} one", remedy)
+        expected = f"a shape prepared with the {config.basis.laplacian} Laplacian"
+        raise refuse(shape.name, expected, f"one with the {shape.laplacian} one", remedy)
     if config.descriptors.shot and len(shape.mesh.faces) and shape.shot_radius != config.descriptors.shot_radius:
-        wanted = f"a shape prepared with SHOT of radius {config.descriptors.shot_radius:g}"
+        expected = f"a shape prepared with SHOT of radius {config.descriptors.shot_radius:g}"
         got = "one without" if shape.shot_radius is None else f"one with radius {shape.shot_radius:g}"
-        raise refuse(shape.name, wanted, got, remedy)
+        raise refuse(shape.name, expected, got, remedy)
 
 
 def prepare_both(
@@ -283,22 +284,22 @@ def prepare_both(
     names: tuple[str, str] = ("source", "target"),
     progress: Progress | None = None,
 ) -> list[Shape]:
-    """Prepare both shapes, side by side where they are small: one small eigenproblem has no use for several cores.
+    """Prepare both shapes, in parallel where they are small, since a small eigenproblem cannot use several cores.
 
-    What is a :class:`Shape` already is checked against ``config`` and handed on. Both are checked before work begins.
+    A :class:`Shape` is only checked against ``config``. Both shapes are checked before work begins.
     """
-    both = ((source, names[0]), (target, names[1]))
-    for part, name in both:
-        if isinstance(part, Mesh):
-            _check_size(part, name, config)
+    named_shapes = ((source, names[0]), (target, names[1]))
+    for shape, name in named_shapes:
+        if isinstance(shape, Mesh):
+            _check_size(shape, name, config)
         else:
-            check_prepared(part, config)
+            check_prepared(shape, config)
     workers = config.threads or available_cores()
-    meshes = [part for part in (source, target) if isinstance(part, Mesh)]
-    aside = len(meshes) == 2 and max(len(mesh.vertices) for mesh in meshes) < THREADED
-    share = replace(config, threads=max(1, workers // 2)) if aside else config
+    unprepared = [shape for shape in (source, target) if isinstance(shape, Mesh)]
+    in_parallel = len(unprepared) == 2 and max(len(mesh.vertices) for mesh in unprepared) < THREADED
+    shape_config = replace(config, threads=max(1, workers // 2)) if in_parallel else config
 
-    def ready(part: Mesh | Shape, name: str) -> Shape:
-        return prepare(part, share, name=name, progress=progress) if isinstance(part, Mesh) else part
+    def prepared(shape: Mesh | Shape, name: str) -> Shape:
+        return prepare(shape, shape_config, name=name, progress=progress) if isinstance(shape, Mesh) else shape
 
-    return parallel(lambda item: ready(*item), both, min(workers, 2) if aside else 1)
+    return parallel(lambda item: prepared(*item), named_shapes, min(workers, 2) if in_parallel else 1)

@@ -181,11 +181,7 @@ def local_differences(ways: Counterparts, points: np.ndarray) -> tuple[np.ndarra
 
 
 def write_local_differences(
-    path: Path,
-    study: Sequence[SpecimenLandmarks],
-    template: Template,
-    results: Mapping[Pair, Result],
-    folder: Path,
+    path: Path, study: Sequence[SpecimenLandmarks], template: Template, results: Mapping[Pair, Result], folder: Path
 ) -> None:
     """Write a row for each specimen and landmark: :func:`local_differences` from the template."""
     names = template.points.names

@@ -31,13 +31,7 @@ from kfmaps.io.landmark_files import (
     write_landmark_sets,
 )
 from kfmaps.io.meshes import read_shape_mesh
-from kfmaps.io.named_points import (
-    FLIP,
-    NamedPoints,
-    place_landmarks,
-    points_on_surface,
-    transfer_points,
-)
+from kfmaps.io.named_points import FLIP, NamedPoints, place_landmarks, points_on_surface, transfer_points
 from kfmaps.io.transfer import find_counterparts
 from kfmaps.matching.result import Match
 

@@ -146,7 +146,7 @@ def assess(
     ``mirrored``: points of the mirrored truth at most, evenly through the list. Their images are far away, and such
     distances take most of the time.
     """
-    target_to_source = check_map(target_to_source, len(source.vertices), lost=True)
+    target_to_source = check_map(target_to_source, len(source.vertices), partial=True)
     check_truth(truth, len(source.vertices), len(target_to_source))
 
     def errors(target: np.ndarray, most: int | None = None) -> Evaluation:

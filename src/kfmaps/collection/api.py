@@ -280,7 +280,7 @@ def _checked_maps(
         a, b = names.index(source), names.index(target)
         file = as_map(one)
         sizes = len(shapes[a].mesh.vertices), len(shapes[b].mesh.vertices)
-        points = check_map(file, *sizes, name=f"map {source} → {target}", lost=True)
+        points = check_map(file, *sizes, name=f"map {source} → {target}", partial=True)
         found[a, b] = replace(file, target_to_source=points)
     if not found:
         raise refuse("maps", "at least one", "none", "leave them out, and pairs are matched")

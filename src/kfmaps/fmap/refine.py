@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from kfmaps._arrays import Array, namespace, refuse
-from kfmaps._progress import Done
+from kfmaps._progress import StageProgress
 from kfmaps._records import setting, settings_record
 from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.geometry.basis import Basis
@@ -40,7 +40,7 @@ class Refinement(Protocol):
         C: Array,
         source: Basis,
         target: Basis,
-        progress: Done | None = None,
+        progress: StageProgress | None = None,
         threads: int | None = None,
         points: np.ndarray | None = None,
     ) -> Refined: ...
@@ -61,7 +61,7 @@ class ICP:
         C: Array,
         source: Basis,
         target: Basis,
-        progress: Done | None = None,
+        progress: StageProgress | None = None,
         threads: int | None = None,
         points: np.ndarray | None = None,
     ) -> Refined:

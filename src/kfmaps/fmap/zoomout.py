@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
-from kfmaps._progress import Done
+from kfmaps._progress import StageProgress
 from kfmaps._records import check_record, setting, settings_record
 from kfmaps._threads import parallel
 from kfmaps.fmap.approximate_nearest import N_PROBE, N_PROBE_FAST
@@ -86,7 +86,7 @@ class ZoomOut:
         C: Array,
         source: Basis,
         target: Basis,
-        progress: Done | None = None,
+        progress: StageProgress | None = None,
         threads: int | None = None,
         points: np.ndarray | None = None,
         guide: DescriptorGuidance | None = None,
@@ -123,7 +123,7 @@ class ZoomOut:
         back: Array,
         source: Basis,
         target: Basis,
-        progress: Done | None = None,
+        progress: StageProgress | None = None,
         threads: int | None = None,
         guide: DescriptorGuidance | None = None,
     ) -> tuple[Refined, Refined]:

@@ -1,4 +1,4 @@
-"""A texture carried to a target: the source's coordinates where they describe it, else a picture baked anew."""
+"""Transfer a texture to a target: the source's coordinates where they describe it, else a new picture is baked."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from kfmaps.io.record import MeshFile, Picture, bytes_of
 _SMALLEST, _LARGEST = 1024, 4096
 """Bounds of the longer side of a baked picture, which is that of the source's unless a size is given."""
 _TEXELS = 2_000_000  # texels worked on together, which bounds the memory
-_TWICE = 0.02
-"""Share of the covered texels that may lie in several faces: an atlas whose charts share space cannot be baked into."""
-_OFF = 0.1
-"""How far the coordinates in the middle of a face may be from the mean of its corners', in edge lengths: beyond it,
-the face lies over a seam of the texture."""
-_INSET = 0.05  # how far a corner is moved towards the middle of its face to find on which side of a seam the face lies
-_MARGIN = 3  # texels around each face that is packed into the picture, which get the nearest colour
+_MAX_SHARED = 0.02
+"""Largest share of the covered texels that may lie in several faces: overlapping charts cannot be baked into."""
+_SEAM_DISTANCE = 0.1
+"""Distance of the coordinates in the middle of a face from the mean of its corners', in edge lengths, beyond which the
+face lies over a seam of the texture."""
+_INSET = 0.05  # share of the way to the middle of its face at which a corner is looked up, beside a seam
+_MARGIN = 3  # texels around each face that is packed into the picture; they get the nearest colour
 
 
 def decode_picture(picture: Picture) -> np.ndarray:
@@ -67,28 +67,28 @@ def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarr
     Returns ``face (q,)``; ``texel (q,)``: ``row · width + column``, wrapped where triangles leave the picture;
     ``weights (q, 3)``: barycentric coordinates of the centre.
     """
-    at = np.stack([corners[:, :, 0] * width, (1 - corners[:, :, 1]) * height], axis=2) - 0.5
-    low, high = np.ceil(at.min(axis=1)).astype(np.int64), np.floor(at.max(axis=1)).astype(np.int64)
+    pixels = np.stack([corners[:, :, 0] * width, (1 - corners[:, :, 1]) * height], axis=2) - 0.5
+    low, high = np.ceil(pixels.min(axis=1)).astype(np.int64), np.floor(pixels.max(axis=1)).astype(np.int64)
     span = np.maximum(high - low + 1, 0)
-    u, v = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
+    u, v = pixels[:, 1] - pixels[:, 0], pixels[:, 2] - pixels[:, 0]
     area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     # Faces that wrap around the whole picture, or have no area in it, have no texels of their own.
     count = np.where((np.abs(area) > 1e-9) & (span <= [width, height]).all(axis=1), span[:, 0] * span[:, 1], 0)
-    found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-    block = np.cumsum(count) // _TEXELS
-    for faces in np.split(np.arange(len(count)), np.flatnonzero(np.diff(block)) + 1):
+    blocks: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+    block_of_face = np.cumsum(count) // _TEXELS
+    for faces in np.split(np.arange(len(count)), np.flatnonzero(np.diff(block_of_face)) + 1):
         face = np.repeat(faces, count[faces])
         step = index_ranges(np.zeros_like(faces), count[faces])
         x = low[face, 0] + step % np.maximum(span[face, 0], 1)
         y = low[face, 1] + step // np.maximum(span[face, 0], 1)
-        gap = np.stack([x, y], axis=1) - at[face, 0]
-        s = (gap[:, 0] * v[face, 1] - gap[:, 1] * v[face, 0]) / area[face]
-        t = (u[face, 0] * gap[:, 1] - u[face, 1] * gap[:, 0]) / area[face]
+        offset = np.stack([x, y], axis=1) - pixels[face, 0]
+        s = (offset[:, 0] * v[face, 1] - offset[:, 1] * v[face, 0]) / area[face]
+        t = (u[face, 0] * offset[:, 1] - u[face, 1] * offset[:, 0]) / area[face]
         inside = (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9)
         s, t = s[inside], t[inside]
         texel = (y[inside] % height) * width + x[inside] % width
-        found.append((face[inside], texel, np.stack([1 - s - t, s, t], axis=1)))
-    face, texel, weights = map(np.concatenate, zip(*found, strict=True))
+        blocks.append((face[inside], texel, np.stack([1 - s - t, s, t], axis=1)))
+    face, texel, weights = map(np.concatenate, zip(*blocks, strict=True))
     return face, texel, weights
 
 
@@ -98,12 +98,12 @@ def can_bake(target: MeshFile) -> bool:
         return False
     corners = target.corner_uv
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + _TWICE:
+    if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + _MAX_SHARED:
         return False  # more than the whole picture
     _, texel, _ = _find_texels(corners, _SMALLEST, _SMALLEST)
-    hits = np.bincount(texel)
+    uses = np.bincount(texel)
     # Texels on an edge that two faces share count for both: those are few, and no more than one in each row of a face.
-    return bool(len(texel) and np.count_nonzero(hits > 1) <= _TWICE * np.count_nonzero(hits))
+    return bool(len(texel) and np.count_nonzero(uses > 1) <= _MAX_SHARED * np.count_nonzero(uses))
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,10 +112,10 @@ class TransferredUv:
 
     uv: np.ndarray  # (m, 2)
     uv_faces: np.ndarray  # (f, 3): row of ``uv`` for each corner of the target's faces
-    torn: np.ndarray  # (f,): faces over a seam of the source's texture, which no coordinates of three corners describe
-    # (f, 3): lengths of the edges in the picture, as parts of its width; of a source with faces.
+    torn: np.ndarray  # (f,): whether a face lies over a seam of the texture, where three corners do not describe it
+    # Only of a source with faces: (f, 3): lengths of the edges in the picture, as parts of its width.
     edges: np.ndarray | None = None
-    images: np.ndarray | None = None  # (f, 3, 3): where the corners lie on the source; of one with faces
+    images: np.ndarray | None = None  # (f, 3, 3): where the corners lie on the source
 
 
 def projected_uv(vertices: np.ndarray) -> np.ndarray:
@@ -139,111 +139,122 @@ def with_uv(source: MeshFile) -> MeshFile:
 
 def _uv_at(source: MeshFile, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return texture coordinates (q, 2) of the surface closest to ``points (q, 3)``, and its faces (q,)."""
-    found = closest_points(points, source.mesh.vertices, source.mesh.faces)
-    return np.einsum("qi,qij->qj", found.weights, source.corner_uv[found.faces]), found.faces
+    closest = closest_points(points, source.mesh.vertices, source.mesh.faces)
+    return np.einsum("qi,qij->qj", closest.weights, source.corner_uv[closest.faces]), closest.faces
 
 
-def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredUv:
+def transfer_uv(source: MeshFile, target: Mesh, points: PointMap) -> TransferredUv:
     """Return texture coordinates of the target in the source's picture.
 
     Each corner has the coordinates of its point on the source. At a seam of the texture one point has several; a corner
     then takes those on its own face's side. A face that lies over a seam is named in ``torn``: the middle of such a
     face is not where the mean of its corners is.
 
-    ``source``: a surface; one without texture coordinates has those of :func:`projected_uv`; ``place``: for each target
-    vertex.
+    ``source``: a surface; one without texture coordinates gets those of :func:`projected_uv`; ``points``: where each
+    target vertex lies on it.
     """
     source, mesh = with_uv(source), source.mesh
-    drawn = source.corner_uv
-    uv = np.einsum("ti,tij->tj", place.weights, drawn[place.faces])
+    source_uv = source.corner_uv
+    uv = np.einsum("ti,tij->tj", points.weights, source_uv[points.faces])
     uv_faces = target.faces.copy()
-    images = point_positions(place, mesh)[target.faces]
-    middle, under = _uv_at(source, images.mean(axis=1))
-    grown = [x[:, [1, 2, 0]] - x for x in (drawn[under], mesh.vertices[mesh.faces[under]])]
-    sizes = np.linalg.norm(grown[0], axis=2), np.linalg.norm(grown[1], axis=2)
-    stretch = np.divide(*sizes, out=np.zeros_like(sizes[0]), where=sizes[1] > 0).max(axis=1)
+    images = point_positions(points, mesh)[target.faces]
+    middle, middle_faces = _uv_at(source, images.mean(axis=1))
+    edge_vectors = [x[:, [1, 2, 0]] - x for x in (source_uv[middle_faces], mesh.vertices[mesh.faces[middle_faces]])]
+    lengths = np.linalg.norm(edge_vectors[0], axis=2), np.linalg.norm(edge_vectors[1], axis=2)
+    stretch = np.divide(*lengths, out=np.zeros_like(lengths[0]), where=lengths[1] > 0).max(axis=1)
     edges = np.linalg.norm(images[:, [1, 2, 0]] - images, axis=2) * stretch[:, None]
-    most = _OFF * edges.max(axis=1) + 1e-9
+    tolerance = _SEAM_DISTANCE * edges.max(axis=1) + 1e-9
 
-    def off(corners: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        return np.linalg.norm(corners.mean(axis=1) - middle[rows], axis=1) > most[rows]
+    def crosses_seam(corners: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        return np.linalg.norm(corners.mean(axis=1) - middle[rows], axis=1) > tolerance[rows]
 
-    rows = np.flatnonzero(off(uv[uv_faces], np.arange(len(uv_faces))))
+    rows = np.flatnonzero(crosses_seam(uv[uv_faces], np.arange(len(uv_faces))))
     inset = images[rows] + _INSET * (images[rows].mean(axis=1, keepdims=True) - images[rows])
-    at, faces = _uv_at(source, inset.reshape(-1, 3))
-    at = at.reshape(-1, 3, 2)
-    corners = ((at - _INSET * at.mean(axis=1, keepdims=True)) / (1 - _INSET)).reshape(-1, 2)
-    options = drawn[faces]  # a corner that is a vertex of the source has exactly its coordinates
-    gap = np.abs(options - corners[:, None]).max(axis=2)
-    corners = np.where((gap.min(axis=1) < 1e-7)[:, None], options[np.arange(len(gap)), gap.argmin(axis=1)], corners)
+    inset_uv, faces = _uv_at(source, inset.reshape(-1, 3))
+    inset_uv = inset_uv.reshape(-1, 3, 2)
+    corners = ((inset_uv - _INSET * inset_uv.mean(axis=1, keepdims=True)) / (1 - _INSET)).reshape(-1, 2)
+    corner_uv = source_uv[faces]  # a corner that is a vertex of the source has exactly its coordinates
+    gaps = np.abs(corner_uv - corners[:, None]).max(axis=2)
+    nearest_uv = corner_uv[np.arange(len(gaps)), gaps.argmin(axis=1)]
+    corners = np.where((gaps.min(axis=1) < 1e-7)[:, None], nearest_uv, corners)
     torn = np.zeros(len(uv_faces), dtype=bool)
-    torn[rows] = off(corners.reshape(-1, 3, 2), rows)
-    corners, again = np.unique(corners, axis=0, return_inverse=True)
-    uv_faces[rows] = len(uv) + again.reshape(-1, 3)
+    torn[rows] = crosses_seam(corners.reshape(-1, 3, 2), rows)
+    corners, unique_rows = np.unique(corners, axis=0, return_inverse=True)
+    uv_faces[rows] = len(uv) + unique_rows.reshape(-1, 3)
     return TransferredUv(np.concatenate([uv, corners]), uv_faces, torn, edges, images)
 
 
 def _bake(
-    source: MeshFile, found: TransferredUv, pixels: np.ndarray, atlas: np.ndarray, picture: np.ndarray, rows: int = 0
+    source: MeshFile,
+    uv_map: TransferredUv,
+    pixels: np.ndarray,
+    atlas: np.ndarray,
+    picture: np.ndarray,
+    kept_rows: int = 0,
 ) -> Picture:
-    """A picture with the colours of the source's, ``pixels``, drawn into it.
+    """Draw the target's faces into ``picture (h, w, 3)``, with the colours of the source's picture ``pixels``.
 
-    ``found``: where the faces lie in the source's picture; the texels of torn ones each take the closest place on the
+    ``uv_map``: where the faces lie in the source's picture; each texel of a torn face takes the closest place on the
     source's surface. ``atlas (f, 3, 2)``: where the faces lie in the new picture, NaN for those that are not drawn.
-    ``picture (h, w, 3)``: its first ``rows`` are there already; it is changed. Texels of no face get the colour of the
-    nearest covered one in the end, so that no other colour bleeds in where a viewer mixes neighbours.
+    The first ``kept_rows`` of the picture stay. Texels of no face get the colour of the nearest covered one, so that no
+    other colour bleeds in where a viewer mixes neighbours.
     """
     height, width = picture.shape[:2]
-    covered = np.repeat(np.arange(height) < rows, width)
-    drawn = np.flatnonzero(np.isfinite(atlas).all(axis=(1, 2)))
-    face, texel, weights = _find_texels(atlas[drawn], height, width)
+    covered = np.repeat(np.arange(height) < kept_rows, width)
+    drawn_faces = np.flatnonzero(np.isfinite(atlas).all(axis=(1, 2)))
+    face, texel, weights = _find_texels(atlas[drawn_faces], height, width)
     if len(face) == 0:
         raise refuse("target", "texture coordinates with room for its faces", "none", "export without them")
-    face = drawn[face]
-    where = np.einsum("qi,qij->qj", weights, found.uv[found.uv_faces[face]])
-    seam = np.flatnonzero(found.torn[face])
-    if len(seam) and found.images is not None:
-        where[seam] = _uv_at(with_uv(source), np.einsum("qi,qij->qj", weights[seam], found.images[face[seam]]))[0]
-    picture.reshape(-1, 3)[texel] = _sample_picture(pixels, where)
+    face = drawn_faces[face]
+    uv = np.einsum("qi,qij->qj", weights, uv_map.uv[uv_map.uv_faces[face]])
+    on_seam = np.flatnonzero(uv_map.torn[face])
+    if len(on_seam) and uv_map.images is not None:
+        places = np.einsum("qi,qij->qj", weights[on_seam], uv_map.images[face[on_seam]])
+        uv[on_seam] = _uv_at(with_uv(source), places)[0]
+    picture.reshape(-1, 3)[texel] = _sample_picture(pixels, uv)
     covered[texel] = True
     from scipy.ndimage import distance_transform_edt
 
-    bare = ~covered.reshape(height, width)
-    nearest: Any = distance_transform_edt(bare, return_distances=False, return_indices=True)
+    is_uncovered = ~covered.reshape(height, width)
+    nearest: Any = distance_transform_edt(is_uncovered, return_distances=False, return_indices=True)
     return encode_png(bytes_of(picture[nearest[0], nearest[1]]))
 
 
 def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
-    """Triangles laid side by side into rows of ``width``: their corners (t, 3, 2) from the upper left, and the height.
+    """Lay triangles side by side in rows of ``width``; return corners (t, 3, 2) from the upper left, and the height.
 
     ``edges (t, 3)``: lengths of the edges from corner i to the next. All are in texels. Where the rows together are
     higher than wide, all triangles are made smaller.
     """
-    first = edges.argmax(axis=1)  # the longest edge lies at the top
-    a, b, c = (np.take_along_axis(edges, ((first + i) % 3)[:, None], axis=1)[:, 0] for i in range(3))
+    longest_edge = edges.argmax(axis=1)  # the longest edge lies at the top
+    a, b, c = (np.take_along_axis(edges, ((longest_edge + i) % 3)[:, None], axis=1)[:, 0] for i in range(3))
     a = np.clip(a, 1e-9, None)
     x = np.clip((a**2 + c**2 - b**2) / (2 * a), 0, a)
     y = np.sqrt(np.maximum(c**2 - x**2, 0))
     scale = min(1.0, (width - 2 * _MARGIN - 1) / max(a.max(), 1e-9))
     while True:
-        wide, high = np.ceil(np.maximum(scale * a, 1)), np.ceil(np.maximum(scale * y, 1))
-        place, left, top, row = np.zeros((len(a), 2)), 0, 0, 0
-        for i in np.argsort(-high, kind="stable"):
-            if left + wide[i] + 2 * _MARGIN > width:
-                left, top, row = 0, top + row, 0
+        widths, heights = np.ceil(np.maximum(scale * a, 1)), np.ceil(np.maximum(scale * y, 1))
+        place, left, top, row_height = np.zeros((len(a), 2)), 0, 0, 0
+        for i in np.argsort(-heights, kind="stable"):
+            if left + widths[i] + 2 * _MARGIN > width:
+                left, top, row_height = 0, top + row_height, 0
             place[i] = left + _MARGIN, top + _MARGIN
-            left, row = left + wide[i] + 2 * _MARGIN, max(row, high[i] + 2 * _MARGIN)
-        if top + row <= width or scale * a.max() < 1:
+            left, row_height = left + widths[i] + 2 * _MARGIN, max(row_height, heights[i] + 2 * _MARGIN)
+        if top + row_height <= width or scale * a.max() < 1:
             break
         scale *= 0.8
-    flat = np.zeros((len(a), 3, 2))
-    flat[:, 1, 0], flat[:, 2, 0], flat[:, 2, 1] = wide, scale * x * wide / np.maximum(scale * a, 1e-9), high
-    order = (np.arange(3) - first[:, None]) % 3
-    return place[:, None] + np.take_along_axis(flat, order[:, :, None], axis=1), int(top + row)
+    triangles = np.zeros((len(a), 3, 2))
+    triangles[:, 1, 0], triangles[:, 2, 0], triangles[:, 2, 1] = (
+        widths,
+        scale * x * widths / np.maximum(scale * a, 1e-9),
+        heights,
+    )
+    order = (np.arange(3) - longest_edge[:, None]) % 3
+    return place[:, None] + np.take_along_axis(triangles, order[:, :, None], axis=1), int(top + row_height)
 
 
 def _resized(pixels: np.ndarray, size: int) -> np.ndarray:
-    """A picture whose longer side has ``size`` texels."""
+    """Return a picture scaled so that its longer side has ``size`` texels."""
     from PIL import Image
 
     height, width = pixels.shape[:2]
@@ -253,7 +264,7 @@ def _resized(pixels: np.ndarray, size: int) -> np.ndarray:
 
 
 def transfer_texture(
-    source: MeshFile, target: MeshFile, found: TransferredUv, picture: Picture, size: int | None = None
+    source: MeshFile, target: MeshFile, uv_map: TransferredUv, picture: Picture, size: int | None = None
 ) -> MeshFile:
     """Return the target with texture coordinates and a picture.
 
@@ -265,31 +276,33 @@ def transfer_texture(
     """
     own_atlas = can_bake(target)
     if target.uv is not None and not own_atlas:
-        told = "several faces of the target share their place in its texture: it gets the source's coordinates"
-        warnings.warn(told, KfmapsWarning, stacklevel=2)
-    plain, edges = MeshFile(target.mesh, None, found.uv, found.uv_faces, picture), found.edges
-    if not (own_atlas or size or found.torn.any()):
-        return plain
+        message = "several faces of the target share their place in its texture: it gets the source's coordinates"
+        warnings.warn(message, KfmapsWarning, stacklevel=2)
+    textured, edges = MeshFile(target.mesh, None, uv_map.uv, uv_map.uv_faces, picture), uv_map.edges
+    if not (own_atlas or size or uv_map.torn.any()):
+        return textured
     pixels = decode_picture(picture)
     size = size or int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
     if own_atlas:
-        return replace(target, picture=_bake(source, found, pixels, target.corner_uv, np.zeros((size, size, 3))))
+        return replace(target, picture=_bake(source, uv_map, pixels, target.corner_uv, np.zeros((size, size, 3))))
     pixels = _resized(pixels, size)
-    if edges is None or not found.torn.any():
-        return replace(plain, picture=encode_png(pixels))
+    if edges is None or not uv_map.torn.any():
+        return replace(textured, picture=encode_png(pixels))
     height, width = pixels.shape[:2]
-    corners = found.uv[found.uv_faces]
+    corners = uv_map.uv[uv_map.uv_faces]
     # Rows below end the repetition of the picture: all faces move into its first copy, and those over its edge are
     # drawn anew as well.
-    copy = np.floor(corners.min(axis=1) + 1e-6)
-    own = found.torn | ((corners.max(axis=1) - 1e-6 > copy + 1).any(axis=1))
-    packed, rows = _pack(edges[own] * width, width)
-    whole = height + rows
+    tile = np.floor(corners.min(axis=1) + 1e-6)
+    redrawn = uv_map.torn | ((corners.max(axis=1) - 1e-6 > tile + 1).any(axis=1))
+    packed, rows = _pack(edges[redrawn] * width, width)
+    total_height = height + rows
     atlas = np.full_like(corners, np.nan)
-    atlas[own] = packed / [width, whole]
-    atlas[own, :, 1] = rows / whole - atlas[own, :, 1]
-    drawn = np.concatenate([pixels, np.zeros((rows, width, 3))])
-    made = _bake(source, replace(found, torn=own), pixels, atlas, drawn, height)
-    moved = (corners - copy[:, None]) * [1, height / whole] + [0, rows / whole]
-    uv, uv_faces = np.unique(np.where(own[:, None, None], atlas, moved).reshape(-1, 2), axis=0, return_inverse=True)
-    return replace(plain, uv=uv, uv_faces=uv_faces.reshape(-1, 3), picture=made)
+    atlas[redrawn] = packed / [width, total_height]
+    atlas[redrawn, :, 1] = rows / total_height - atlas[redrawn, :, 1]
+    canvas = np.concatenate([pixels, np.zeros((rows, width, 3))])
+    baked = _bake(source, replace(uv_map, torn=redrawn), pixels, atlas, canvas, height)
+    shifted = (corners - tile[:, None]) * [1, height / total_height] + [0, rows / total_height]
+    uv, uv_faces = np.unique(
+        np.where(redrawn[:, None, None], atlas, shifted).reshape(-1, 2), axis=0, return_inverse=True
+    )
+    return replace(textured, uv=uv, uv_faces=uv_faces.reshape(-1, 3), picture=baked)

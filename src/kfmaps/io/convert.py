@@ -1,6 +1,6 @@
-"""What Python functions take as a shape, a map or landmarks: files, arrays, and other libraries' objects.
+"""Convert what Python functions accept as a shape, a map or landmarks: files, arrays, other libraries' objects.
 
-No library is imported for it: an object is recognised by its attributes.
+No library is imported for that: an object is recognised by its attributes.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
 
 
 def _parts(shape: Any) -> tuple[ArrayLike, np.ndarray]:
-    """Vertices and triangles of arrays or of another library's object."""
+    """Return vertices and triangles of arrays or of another library's object."""
     if isinstance(shape, np.ndarray):
         return shape, _triangles(())
     if isinstance(shape, tuple | list):
@@ -103,7 +103,7 @@ def _parts(shape: Any) -> tuple[ArrayLike, np.ndarray]:
 
 
 def _triangles(faces: Any) -> np.ndarray:
-    """Faces (f, c) of ``c`` corners each, or a flat list "count, corner, corner, ..." again and again, as triangles."""
+    """Return faces as triangles; ``faces`` are (f, c), or a flat list of "count, corner, corner, ..." per face."""
     if faces is None or len(faces) == 0:
         return np.zeros((0, 3), dtype=np.int64)
     array = np.asarray(faces)
@@ -121,7 +121,7 @@ def _triangles(faces: Any) -> np.ndarray:
 
 
 def _meshio(cells: Any) -> np.ndarray:
-    """The triangles of meshio's blocks of cells; points and lines are left out, solids refused."""
+    """Return the triangles of meshio's blocks of cells; points and lines are left out, solids are refused."""
     blocks = cells.items() if isinstance(cells, Mapping) else [(block.type, block.data) for block in cells]
     parts = []
     for kind, data in blocks:
@@ -136,8 +136,8 @@ def as_landmarks(landmarks: LandmarksLike | None, shapes: Sequence[object] = (),
     """Return landmarks as pairs of vertices where files hold them, else as they are.
 
     ``landmarks``: a file of pairs, or the landmarks of either shape
-    (:func:`~kfmaps.io.landmark_files.read_landmark_sets`), of which those count that both have by name; ``shapes``:
-    what was handed in as the shapes; their files may name a coordinate system.
+    (:func:`~kfmaps.io.landmark_files.read_landmark_sets`), paired by the names that both have; ``shapes``: as the
+    caller gave them, since their files may name a coordinate system.
     """
     if is_file(landmarks):
         return read_landmarks(Path(landmarks))
@@ -146,16 +146,16 @@ def as_landmarks(landmarks: LandmarksLike | None, shapes: Sequence[object] = (),
             remedy = "Give the meshes themselves, or pairs of vertices"
             raise refuse("landmarks", "meshes in the unit of the landmarks' files", "a prepared shape", remedy)
         files = [Path(shape) if is_file(shape) else None for shape in shapes]
-        return read_landmark_pairs([Path(str(one)) for one in landmarks], meshes, files)[0]
+        return read_landmark_pairs([Path(str(file)) for file in landmarks], meshes, files)[0]
     return landmarks
 
 
-def as_map(found: MapLike, source: Mesh | None = None) -> Match:
+def as_map(map: MapLike, source: Mesh | None = None) -> Match:
     """Return a map of any kind as a :class:`~kfmaps.Match`.
 
     Parameters
     ----------
-    found : Match, path, PointMap, or (n_t,) whole numbers
+    map : Match, path, PointMap, or (n_t,) whole numbers
         A match; a file; points inside the source's triangles; or a source vertex
         for each target vertex.
     source : Mesh, optional
@@ -166,19 +166,19 @@ def as_map(found: MapLike, source: Mesh | None = None) -> Match:
     InvalidInput
         On anything else, a PointMap that does not fit the source, and as :func:`kfmaps.load_map`.
     """
-    if isinstance(found, Match):
-        return found
-    if is_file(found):
-        return load_map(Path(found))
-    if isinstance(found, PointMap):
+    if isinstance(map, Match):
+        return map
+    if is_file(map):
+        return load_map(Path(map))
+    if isinstance(map, PointMap):
         if source is None:
             raise refuse("map", "the source of points inside its triangles", "a PointMap alone", "give source=")
-        check_point_map_precise(found, source)
+        check_point_map_precise(map, source)
         named = ShapeFile(n_vertices=len(source.vertices))
-        return Match(target_to_source=nearest_vertices(found, source), precise_map=found, source_file=named)
+        return Match(target_to_source=nearest_vertices(map, source), precise_map=map, source_file=named)
     try:
-        numbers = np.asarray(found, dtype=np.float64)
+        numbers = np.asarray(map, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        wanted = "a Match, the file of a map, a PointMap, or a source vertex for each target vertex"
-        raise refuse("map", wanted, type(found).__name__, "give what kfmaps.match returned") from error
-    return Match(target_to_source=check_map(numbers, lost=True))
+        expected = "a Match, the file of a map, a PointMap, or a source vertex for each target vertex"
+        raise refuse("map", expected, type(map).__name__, "give what kfmaps.match returned") from error
+    return Match(target_to_source=check_map(numbers, partial=True))

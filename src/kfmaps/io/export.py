@@ -1,4 +1,4 @@
-"""A map made visible in other programs: the source's texture or colours on the target."""
+"""Export a map for other programs: the target with the source's texture or colours."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from kfmaps.matching.result import Match
 
 
 def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
-    """Draw a checkerboard whose colour tells where one is, with thin lines between the cells: (size, size, 3) uint8."""
+    """Return a checkerboard with a colour gradient and thin lines between the cells, (size, size, 3) uint8."""
     across, down = np.meshgrid(*2 * [(np.arange(size) + 0.5) / size])
     x, y = across * cells, (1 - down) * cells
     hue = np.stack([across, 1 - down, 1 - across], axis=-1)
@@ -44,11 +44,11 @@ def write_textured(
     size: int | None = None,
     force: bool = False,
 ) -> list[Path]:
-    """Write the target with the source's texture on it: OBJ with the MTL and picture beside it, or GLB with all in it.
+    """Write the target with the source's texture: an OBJ with MTL and picture beside it, or a GLB that holds all.
 
-    A target that comes with texture coordinates of its own keeps them, and the picture is resampled into its atlas
-    (:mod:`kfmaps.io.bake`); unless several of its faces share their place there. Otherwise the target gets the source's
-    coordinates and picture, and faces over a seam of the texture get places of their own below it. A GLB has the
+    A target with texture coordinates in which no faces overlap keeps them, and the picture is resampled into its atlas
+    (:mod:`kfmaps.io.bake`). Any other target gets the source's coordinates and picture, and faces over a seam of the
+    texture get places of their own below it. A GLB has the
     source's morph targets, skeleton and skinning weights too (:mod:`kfmaps.io.character`).
 
     Parameters
@@ -60,7 +60,7 @@ def write_textured(
     target : Mesh or MeshFile
     target_to_source : (n_t,) int64 or Match
     picture : str or Path, optional
-        PNG or JPEG; by default the source's own, if its file holds one, or a coloured grid (:func:`grid_picture`).
+        PNG or JPEG; by default the source's own, or a coloured grid where it has none (:func:`grid_picture`).
     size : int, optional
         Longer side of the written picture in texels; by default that of the source's.
     force : bool
@@ -83,11 +83,11 @@ def write_textured(
     image = None if picture is None else picture_in(read_bytes(picture))
     if picture is not None and image is None:
         raise refuse(f"picture {picture}", "a PNG or JPEG file", "another", "convert it")
-    made = textured(source, target, target_to_source, image, size)
+    result = textured(source, target, target_to_source, image, size)
     if suffix == ".glb":
-        write_bytes(path, format_glb(transfer_character(source, made, target_to_source)), force)
+        write_bytes(path, format_glb(transfer_character(source, result, target_to_source)), force)
         return [path]
-    return _write_obj(path, made, force)
+    return _write_obj(path, result, force)
 
 
 def textured(
@@ -105,33 +105,33 @@ def textured(
     mesh, picture = target.mesh, picture or source.picture or encode_png(grid_picture())
     if len(mesh.faces) == 0:
         raise refuse("target", "a surface with faces", "a point cloud", "export colours as .ply")
-    points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
-    lost = np.asarray(points < 0)
+    points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), partial=True)
+    unmatched = np.asarray(points < 0)
     if len(source.mesh.faces):
-        found = transfer_uv(source, mesh, point_map(target_to_source, source.mesh, points))
+        transferred = transfer_uv(source, mesh, point_map(target_to_source, source.mesh, points))
     else:  # a point cloud has no seams
-        corners = np.where(lost, points.max(), points)[mesh.faces]
-        found = TransferredUv(projected_uv(source.mesh.vertices), corners, corners[:, 0] < 0)
-    if lost.any():
-        # All three corners in one place: the face has one colour of the picture, and the picture does not spread.
-        faces = np.asarray(lost[mesh.faces].any(axis=1))
-        uv = np.concatenate([found.uv, np.zeros((1, 2))])
-        uv_faces = np.where(faces[:, None], len(found.uv), found.uv_faces)
-        found = replace(found, uv=uv, uv_faces=uv_faces, torn=found.torn & ~faces)
-    return transfer_texture(source, target, found, picture, size)
+        corners = np.where(unmatched, points.max(), points)[mesh.faces]
+        transferred = TransferredUv(projected_uv(source.mesh.vertices), corners, corners[:, 0] < 0)
+    if unmatched.any():
+        # All three corners lie in one place, so that the face has one colour of the picture.
+        unmatched_faces = np.asarray(unmatched[mesh.faces].any(axis=1))
+        uv = np.concatenate([transferred.uv, np.zeros((1, 2))])
+        uv_faces = np.where(unmatched_faces[:, None], len(transferred.uv), transferred.uv_faces)
+        transferred = replace(transferred, uv=uv, uv_faces=uv_faces, torn=transferred.torn & ~unmatched_faces)
+    return transfer_texture(source, target, transferred, picture, size)
 
 
-def _write_obj(path: Path, made: MeshFile, force: bool) -> list[Path]:
+def _write_obj(path: Path, shape: MeshFile, force: bool) -> list[Path]:
     """Write an OBJ file with its MTL and picture beside it; return their names."""
-    assert made.picture is not None
-    material, beside = path.with_suffix(".mtl"), path.with_suffix(made.picture.suffix)
-    content = format_obj(replace(made, colors=None), material.name)
-    lines = [f"newmtl {MATERIAL}", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {beside.name}", ""]
+    assert shape.picture is not None
+    material_path, picture_path = path.with_suffix(".mtl"), path.with_suffix(shape.picture.suffix)
+    content = format_obj(replace(shape, colors=None), material_path.name)
+    lines = [f"newmtl {MATERIAL}", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {picture_path.name}", ""]
     with ExitStack() as files:  # renamed in reverse order, the OBJ file that names the others last
         files.enter_context(atomic_output(path, force)).write_bytes(content)
-        files.enter_context(atomic_output(material, force)).write_text("\n".join(lines), encoding="utf-8")
-        files.enter_context(atomic_output(beside, force)).write_bytes(made.picture.data)
-    return [path, material, beside]
+        files.enter_context(atomic_output(material_path, force)).write_text("\n".join(lines), encoding="utf-8")
+        files.enter_context(atomic_output(picture_path, force)).write_bytes(shape.picture.data)
+    return [path, material_path, picture_path]
 
 
 def write_colored(
@@ -154,24 +154,29 @@ def write_colored(
     """
     colors = np.asarray(colors, dtype=np.float64)
     check(colors, "colors", shape=(None, 3), remedy="give one colour per source vertex")
-    check_map(target_to_source, len(colors), len(target.vertices), lost=True)
+    check_map(target_to_source, len(colors), len(target.vertices), partial=True)
     if source is not None:
         precise_points(target_to_source, source)
-    mixed = transfer(colors, target_to_source, None if source is None else source.faces, LOST_GREY)
-    write_mesh(path, target, colors=np.clip(mixed, 0, 1), force=force)
+    transferred = transfer(colors, target_to_source, None if source is None else source.faces, LOST_GREY)
+    write_mesh(path, target, colors=np.clip(transferred, 0, 1), force=force)
 
 
-def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarray, force: bool = False) -> None:
-    """Write the source in the target's shape and place: as a morph target of the source (GLB), else the mesh alone.
+def write_morph(path: str | Path, source: MeshFile, target: Mesh, registered: np.ndarray, force: bool = False) -> None:
+    """Write the source deformed to the target: as a morph target of the source (GLB), else the mesh alone.
 
-    GLB and OBJ keep the source's texture. ``bent (n_s, 3)`` are the vertices as a map file has them.
+    GLB and OBJ keep the source's texture. ``registered (n_s, 3)``: ``registered_vertices`` of a map file.
     """
-    check(np.asarray(bent), "bent", shape=(len(source.mesh.vertices), 3), remedy="check that the map is the source's")
-    ends = bent * np.sqrt(surface_area(target)) + target.vertices.mean(axis=0)
-    moved, suffix = replace(source, mesh=Mesh(ends, source.mesh.faces)), Path(path).suffix.lower()
+    check(
+        np.asarray(registered),
+        "bent",
+        shape=(len(source.mesh.vertices), 3),
+        remedy="check that the map is the source's",
+    )
+    vertices = registered * np.sqrt(surface_area(target)) + target.vertices.mean(axis=0)
+    deformed, suffix = replace(source, mesh=Mesh(vertices, source.mesh.faces)), Path(path).suffix.lower()
     if suffix == ".obj" and source.picture and source.uv is not None:
-        _write_obj(Path(path), moved, force)
+        _write_obj(Path(path), deformed, force)
     elif suffix == ".glb":
-        write_bytes(path, format_glb(replace(source, morphs={"target": ends - source.mesh.vertices})), force)
+        write_bytes(path, format_glb(replace(source, morphs={"target": vertices - source.mesh.vertices})), force)
     else:
-        write_mesh(path, moved.mesh, colors=source.colors, force=force)
+        write_mesh(path, deformed.mesh, colors=source.colors, force=force)

@@ -1,4 +1,4 @@
-"""GLB files written: one surface with colours or a texture, morph targets and a skin."""
+"""Write GLB files: one surface with colours or a texture, morph targets and a skin."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from kfmaps.io.record import MeshFile, Skin, bytes_of
 
 _FLOAT, _BYTE, _SHORT, _INT = 5126, 5121, 5123, 5125
 _ARRAY, _ELEMENT = 34962, 34963
-_MOST_JOINTS = 4  # joints of a vertex that every program reads
+_MAX_JOINTS = 4  # joints of a vertex that every program reads
 
 
 class _Chunks:
-    """The binary part of a GLB, and what the JSON part says of it."""
+    """The binary part of a GLB, and its views and accessors in the JSON part."""
 
     def __init__(self) -> None:
         self.data = bytearray()
@@ -47,8 +47,8 @@ class _Chunks:
 def format_glb(shape: MeshFile) -> bytes:
     """Write a mesh with its colours, texture, morph targets and skin as GLB, in single precision.
 
-    A vertex with several texture coordinates, along seams, is written once for each. Of more than four joints of a
-    vertex the four heaviest count.
+    A vertex with several texture coordinates, along seams, is written once for each. A vertex keeps its four heaviest
+    joints.
 
     Khronos Group, glTF 2.0, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
     """
@@ -57,7 +57,7 @@ def format_glb(shape: MeshFile) -> bytes:
     rows, faces = np.arange(len(mesh.vertices)), mesh.faces
     attributes: dict[str, int] = {}
     material: JsonObject = {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9}}
-    tree: JsonObject = {}
+    document: JsonObject = {}
     if uv is not None and uv_faces is not None:
         pairs, corner = np.unique(np.stack([mesh.faces.ravel(), uv_faces.ravel()], axis=1), axis=0, return_inverse=True)
         rows, faces = pairs[:, 0], corner.reshape(-1, 3)
@@ -65,44 +65,44 @@ def format_glb(shape: MeshFile) -> bytes:
         attributes["TEXCOORD_0"] = chunks.array(flipped.astype("<f4"), _FLOAT, "VEC2")
         if picture is not None:
             image = {"bufferView": chunks.view(picture.data), "mimeType": picture.kind}
-            tree = {"textures": [{"source": 0}], "images": [image]}
+            document = {"textures": [{"source": 0}], "images": [image]}
             material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
     attributes["POSITION"] = chunks.places(mesh.vertices[rows])
     if len(mesh.faces):
         normals = vertex_normals(mesh)
-        normals[np.linalg.norm(normals, axis=1) == 0] = [0, 0, 1]  # the format wants length 1 throughout
+        normals[np.linalg.norm(normals, axis=1) == 0] = [0, 0, 1]  # the format requires length 1
         attributes["NORMAL"] = chunks.array(normals[rows].astype("<f4"), _FLOAT, "VEC3")
     if colors is not None:
         linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
         four = np.hstack([bytes_of(linear), np.full((len(colors), 1), 255, dtype=np.uint8)])
         attributes["COLOR_0"] = chunks.array(four[rows], _BYTE, "VEC4", normalized=True)
-    part: JsonObject = {"attributes": attributes, "material": 0}
+    primitive: JsonObject = {"attributes": attributes, "material": 0}
     if len(faces):
-        part["indices"] = chunks.array(faces.ravel().astype("<u4"), _INT, "SCALAR", _ELEMENT)
+        primitive["indices"] = chunks.array(faces.ravel().astype("<u4"), _INT, "SCALAR", _ELEMENT)
     else:
-        part["mode"] = 0
-    made: JsonObject = {"primitives": [part]}
+        primitive["mode"] = 0
+    mesh_record: JsonObject = {"primitives": [primitive]}
     if shape.morphs:
-        part["targets"] = [{"POSITION": chunks.places(moved[rows])} for moved in shape.morphs.values()]
-        made |= {"weights": [0.0] * len(shape.morphs), "extras": {"targetNames": list(shape.morphs)}}
+        primitive["targets"] = [{"POSITION": chunks.places(offsets[rows])} for offsets in shape.morphs.values()]
+        mesh_record |= {"weights": [0.0] * len(shape.morphs), "extras": {"targetNames": list(shape.morphs)}}
     if shape.skin is not None:
-        order = np.argsort(-shape.skin.weights, axis=1, kind="stable")[:, :_MOST_JOINTS]
+        order = np.argsort(-shape.skin.weights, axis=1, kind="stable")[:, :_MAX_JOINTS]
         heaviest = np.take_along_axis(shape.skin.weights, order, axis=1)
         heaviest /= np.maximum(heaviest.sum(axis=1, keepdims=True), 1e-300)
-        order, heaviest = (np.pad(x, ((0, 0), (0, _MOST_JOINTS - x.shape[1]))) for x in (order, heaviest))
+        order, heaviest = (np.pad(x, ((0, 0), (0, _MAX_JOINTS - x.shape[1]))) for x in (order, heaviest))
         attributes["JOINTS_0"] = chunks.array(np.where(heaviest > 0, order, 0)[rows].astype("<u2"), _SHORT, "VEC4")
         attributes["WEIGHTS_0"] = chunks.array(heaviest[rows].astype("<f4"), _FLOAT, "VEC4")
-    tree |= {
+    document |= {
         "asset": {"version": "2.0", "generator": "kfmaps"},
         "scene": 0,
         **_nodes(shape.skin, chunks),
-        "meshes": [made],
+        "meshes": [mesh_record],
         "materials": [material],
         "accessors": chunks.accessors,
         "bufferViews": chunks.views,
         "buffers": [{"byteLength": len(chunks.data)}],
     }
-    text = json.dumps(tree, separators=(",", ":")).encode()
+    text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     binary = bytes(chunks.data) + b"\0" * (-len(chunks.data) % 4)
     head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(binary))
@@ -110,7 +110,7 @@ def format_glb(shape: MeshFile) -> bytes:
 
 
 def _nodes(skin: Skin | None, chunks: _Chunks) -> JsonObject:
-    """The node of the mesh, and one for each joint of its skin."""
+    """Return the node of the mesh, and one for each joint of its skin."""
     if skin is None:
         return {"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
     above = np.where((skin.parents < 0)[:, None, None], np.eye(4), skin.matrices[skin.parents])
@@ -127,10 +127,10 @@ def _nodes(skin: Skin | None, chunks: _Chunks) -> JsonObject:
 
 
 def _placed(matrix: np.ndarray) -> JsonObject:
-    """A node's translation, rotation and scale, which animations need; its matrix where there is shear."""
+    """Return a node's translation, rotation and scale, which animations need; its matrix where there is shear."""
     scale = np.linalg.norm(matrix[:3, :3], axis=0) * np.sign(np.linalg.det(matrix[:3, :3]))
-    turn = matrix[:3, :3] / np.where(scale == 0, 1, scale)
-    if np.abs(turn.T @ turn - np.eye(3)).max() > 1e-4:
+    rotation = matrix[:3, :3] / np.where(scale == 0, 1, scale)
+    if np.abs(rotation.T @ rotation - np.eye(3)).max() > 1e-4:
         return {"matrix": matrix.T.ravel().tolist()}
-    turned = Rotation.from_matrix(turn).as_quat().tolist()
-    return {"translation": matrix[:3, 3].tolist(), "rotation": turned, "scale": scale.tolist()}
+    quaternion = Rotation.from_matrix(rotation).as_quat().tolist()
+    return {"translation": matrix[:3, 3].tolist(), "rotation": quaternion, "scale": scale.tolist()}

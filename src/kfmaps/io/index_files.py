@@ -12,24 +12,24 @@ from kfmaps.io.atomic import write_text
 from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes, whole_numbers
 
 
-def _read_numbers(path: str | Path, columns: int, first: int, wanted: str, lost: bool = False) -> np.ndarray:
-    """The whole numbers of a text file, (rows, columns) int64, less ``first``; a −1 stays where ``lost`` allows it."""
+def _read_numbers(path: str | Path, columns: int, first: int, expected: str, partial: bool = False) -> np.ndarray:
+    """Return the whole numbers of a text file, (rows, columns) int64, less ``first``; −1 stays where ``partial``."""
     name = str(path)
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
-        raise refuse(name, wanted, "no numbers", "check that it is the right file")
-    numbers = whole_numbers(as_table(rows, columns, name, wanted), name)
-    gone = (numbers == -1) & lost
-    small = np.flatnonzero(((numbers < first) & ~gone).any(axis=1))
-    if len(small):
-        got = " ".join(map(str, numbers[small[0]]))
+        raise refuse(name, expected, "no numbers", "check that it is the right file")
+    numbers = whole_numbers(as_table(rows, columns, name, expected), name)
+    unmatched = (numbers == -1) & partial
+    too_small = np.flatnonzero(((numbers < first) & ~unmatched).any(axis=1))
+    if len(too_small):
+        got = " ".join(map(str, numbers[too_small[0]]))
         remedy = "check the numbers" + ("; are they counted from 0?" if numbers.min() == 0 else "")
-        raise refuse(f"{name}, line {rows.lines[small[0]]}", f"vertex numbers from {first} on", got, remedy)
-    return np.where(gone, -1, numbers - first)
+        raise refuse(f"{name}, line {rows.lines[too_small[0]]}", f"vertex numbers from {first} on", got, remedy)
+    return np.where(unmatched, -1, numbers - first)
 
 
 def _first_number(path: str | Path) -> int:
-    """From where a file's format counts vertices: that of the remeshed benchmarks from 1."""
+    """Return the number of a file's first vertex: 1 in ``.vts``, the format of the remeshed benchmarks, else 0."""
     return int(Path(path).suffix.lower() == ".vts")
 
 
@@ -64,7 +64,7 @@ def read_landmark_names(path: str | Path) -> list[str]:
 
 
 def _printable(text: str) -> str:
-    """A text on one line, without characters that a terminal would not print."""
+    """Return a text on one line, without characters that a terminal does not print."""
     return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
 
 
@@ -93,14 +93,14 @@ def write_landmarks(path: str | Path, pairs: np.ndarray, *, names: Sequence[str]
     write_text(path, "\n".join(lines) + "\n", force)
 
 
-def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost: bool = False) -> np.ndarray:
+def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, partial: bool = False) -> np.ndarray:
     """Read a list of vertex numbers, one a line; ``#`` starts a comment.
 
-    ``path``, ``one_based`` and errors are as of :func:`read_landmarks`; ``lost``: whether −1 may stand for no vertex.
-    Returns (m,) int64, 0-based.
+    ``path``, ``one_based`` and errors are as of :func:`read_landmarks`; ``partial``: whether −1 may stand
+    for no vertex. Returns (m,) int64, 0-based.
     """
     first = _first_number(path) if one_based is None else int(one_based)
-    return _read_numbers(path, 1, first, "one whole number a line", lost)[:, 0]
+    return _read_numbers(path, 1, first, "one whole number a line", partial)[:, 0]
 
 
 def write_vertex_numbers(path: str | Path, numbers: np.ndarray, *, force: bool = False) -> None:

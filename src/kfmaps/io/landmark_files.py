@@ -1,4 +1,4 @@
-"""Landmarks in the files of 3D Slicer, MorphoJ and tpsDig, Landmark Editor, ShapeWorks, and in tables."""
+"""Read and write landmarks in the formats of 3D Slicer, MorphoJ, tpsDig, Landmark Editor, ShapeWorks, and tables."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from kfmaps.io.text import REPAIR, complete_or_refuse, is_number, read_text
 LPS, RAS = "LPS", "RAS"
 """The two conventions of medical images: the patient's left, back and top, or right, front and top, are positive."""
 SPACES = {"0": RAS, "1": LPS, RAS: RAS, LPS: LPS}
-"""How 3D Slicer's files call them."""
+"""Names of the two in 3D Slicer's files."""
 MISSING = ("", "na", "nan", "n/a", "#n/a", "null")
 UNPLACED = 9999.0
 """Landmark Editor's coordinate of a point that was not placed."""
@@ -32,7 +32,7 @@ FCSV_COLUMNS = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID"
 
 
 _CURVE_TYPES = {"Curve": "curve", "ClosedCurve": "loop"}
-"""3D Slicer's types of curves, and how the names of their points begin."""
+"""3D Slicer's types of curves, and the prefix of their points' names."""
 _CURVE_POINT = re.compile(r"(curve|loop)(.*)_(\d+)")
 
 
@@ -47,38 +47,38 @@ class LandmarkCurve:
 
 def find_curves(names: Sequence[str]) -> list[LandmarkCurve]:
     """Return the curves among landmarks: "curveNAME_1", "curveNAME_2", ..., or "loopNAME_1" of a closed curve."""
-    found: dict[tuple[str, str], list[tuple[int, int]]] = {}
+    points: dict[tuple[str, str], list[tuple[int, int]]] = {}
     for row, label in enumerate(names):
         match = _CURVE_POINT.fullmatch(label)
         if match is not None:
-            found.setdefault((match[1], match[2]), []).append((int(match[3]), row))
+            points.setdefault((match[1], match[2]), []).append((int(match[3]), row))
     return [
-        LandmarkCurve(name, tuple(row for _, row in sorted(own)), kind == "loop") for (kind, name), own in found.items()
+        LandmarkCurve(name, tuple(row for _, row in sorted(members)), kind == "loop")
+        for (kind, name), members in points.items()
     ]
 
 
 def fixed_rows(names: Sequence[str]) -> list[int]:
-    """Return the landmarks that are of no curve."""
+    """Return the rows of the landmarks that belong to no curve."""
     return [row for row, label in enumerate(names) if _CURVE_POINT.fullmatch(label) is None]
 
 
 @dataclass(frozen=True, eq=False)
 class LandmarkSet:
-    """The landmarks of one specimen, as a file has them; points of curves are named as :func:`find_curves` says."""
+    """The landmarks of one specimen in a file; :func:`find_curves` says how points of curves are named."""
 
     names: tuple[str, ...]
     points: np.ndarray  # (l, 3): NaN for a missing landmark. Points of a plane have a third coordinate of 0.
     specimen: str = ""  # empty where the file does not say
     space: str = ""  # "LPS", "RAS" or "": the file's coordinate system; empty where it does not say
-    # (l,): vertices, from 0, in place of points (then all NaN); only tables have them.
-    vertices: np.ndarray | None = None
-    # A remark on each landmark, written to files that have room for one. A landmark with a remark is written as not
-    # selected, so that 3D Slicer shows it in another colour. Empty for none at all.
+    vertices: np.ndarray | None = None  # (l,): of a table that names vertices, from 0; the points are then NaN
+    # A remark on each landmark, for formats that have room for one; or empty. A landmark with a remark is written as
+    # not selected, so that 3D Slicer shows it in another colour.
     notes: tuple[str, ...] = ()
 
 
 def read_landmark_sets(path: str | Path) -> list[LandmarkSet]:
-    """Read landmarks of one or more specimens; the extension tells the format.
+    """Read landmarks of one or more specimens; the extension decides the format.
 
     ``.mrk.json`` and ``.fcsv`` (3D Slicer), ``.tps`` (tpsDig, MorphoJ, geomorph), ``.pts``
     (Landmark Editor), ``.particles`` (ShapeWorks), and ``.csv``: a row for each landmark ("name, x, y, z", "name,
@@ -101,7 +101,7 @@ def read_landmark_sets(path: str | Path) -> list[LandmarkSet]:
 
 
 def write_landmark_sets(path: str | Path, sets: Sequence[LandmarkSet], force: bool = False) -> None:
-    """Write landmarks so that :func:`read_landmark_sets` reads them back; the extension tells the format."""
+    """Write landmarks so that :func:`read_landmark_sets` reads them back; the extension decides the format."""
     _, write, many = landmark_format(path, "output")
     if len(sets) != 1 and not many:
         raise refuse(f"output {path}", "one specimen", str(len(sets)), "write .csv or .tps, or a file for each")
@@ -127,8 +127,8 @@ def mesh_space(path: str | Path) -> str:
             head = file.read(4096)
     except (OSError, ValueError):
         return ""
-    found = re.search(rb"SPACE\b.{1,24}?(LPS|RAS)\b", head, re.DOTALL)
-    return "" if found is None else found[1].decode("ascii")
+    match = re.search(rb"SPACE\b.{1,24}?(LPS|RAS)\b", head, re.DOTALL)
+    return "" if match is None else match[1].decode("ascii")
 
 
 def _suffix(path: str | Path) -> str:
@@ -137,19 +137,19 @@ def _suffix(path: str | Path) -> str:
 
 
 def landmark_format(path: str | Path, what: str) -> tuple[Callable, Callable, bool]:
-    """Return reader and writer of a landmark file, and whether it holds several specimens; refuse another file.
+    """Return reader and writer of a landmark file, and whether the format holds several specimens.
 
-    ``what``: how messages call it.
+    ``what``: name of the file in messages.
     """
-    found = _FORMATS.get(_suffix(path))
-    if found is None:
+    format = _FORMATS.get(_suffix(path))
+    if format is None:
         got = _suffix(path) or "no extension"
         raise refuse(f"{what} {path}", f"one of {' '.join(_FORMATS)}", got, "convert or rename the file")
-    return found
+    return format
 
 
 def _points(rows: Sequence[Sequence[str]], name: str) -> np.ndarray:
-    """Rows of two or three cells as points (l, 3); NaN for missing ones."""
+    """Return rows of two or three cells as points (l, 3); NaN for missing ones."""
     points = np.full((len(rows), 3), np.nan)
     for i, row in enumerate(rows):
         if len(row) not in (2, 3):
@@ -165,7 +165,7 @@ def _points(rows: Sequence[Sequence[str]], name: str) -> np.ndarray:
 
 
 def _read_json(text: str, name: str) -> list[LandmarkSet]:
-    """Markups of 3D Slicer: https://github.com/Slicer/Slicer, ``markups-schema-v1.0.3.json``."""
+    """Read markups of 3D Slicer: https://github.com/Slicer/Slicer, ``markups-schema-v1.0.3.json``."""
     content = json.loads(text)
     names, points, spaces, curves = [], [], set(), 0
     for markup in content["markups"]:
@@ -175,8 +175,8 @@ def _read_json(text: str, name: str) -> list[LandmarkSet]:
         for i, one in enumerate(markup.get("controlPoints", []), 1):
             label = str(one.get("label") or len(names) + 1)
             names.append(f"{kind}{markup.get('name') or curves}_{i}" if kind else label)
-            placed = one.get("positionStatus", "defined") == "defined" and one.get("position")
-            points.append([float(x) for x in one["position"]] if placed else [np.nan] * 3)
+            position = one.get("positionStatus", "defined") == "defined" and one.get("position")
+            points.append([float(x) for x in one["position"]] if position else [np.nan] * 3)
     if len(spaces) > 1:
         raise refuse(name, "one coordinate system", "two", "save the lists in files of their own")
     array = np.array(points, dtype=np.float64).reshape(-1, 3)
@@ -197,9 +197,9 @@ def _write_json(sets: Sequence[LandmarkSet]) -> str:
     for curve in curves:
         lists.append(({"type": "ClosedCurve" if curve.closed else "Curve", "name": curve.name}, list(curve.rows)))
     markups = []
-    for told, rows in lists:
+    for head, rows in lists:
         markup = {
-            **told,
+            **head,
             "coordinateSystem": one.space or LPS,
             "coordinateUnits": "mm",
             "locked": False,
@@ -214,18 +214,18 @@ def _write_json(sets: Sequence[LandmarkSet]) -> str:
 
 def _control_point(one: LandmarkSet, row: int, number: int) -> dict[str, object]:
     point = one.points[row].tolist()
-    placed = not np.isnan(point).any()
+    is_placed = not np.isnan(point).any()
     return {
         "id": str(number),
         "label": one.names[row],
         "description": _note(one, row),
         "associatedNodeID": "",
-        **({"position": point} if placed else {}),
+        **({"position": point} if is_placed else {}),
         "orientation": [-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0],
         "selected": not _note(one, row),
         "locked": False,
         "visibility": True,
-        "positionStatus": "defined" if placed else "undefined",
+        "positionStatus": "defined" if is_placed else "undefined",
     }
 
 
@@ -234,7 +234,7 @@ def _note(one: LandmarkSet, i: int) -> str:
 
 
 def _read_fcsv(text: str, name: str) -> list[LandmarkSet]:
-    """Fiducials of 3D Slicer before 5: CSV under a head of comments that names columns and coordinate system."""
+    """Read fiducials of 3D Slicer before 5: CSV below comments that name columns and coordinate system."""
     space, columns = RAS, [str(column) for column in FCSV_COLUMNS.split(",")]
     lines = text.splitlines()
     for line in lines:
@@ -261,43 +261,43 @@ def _write_fcsv(sets: Sequence[LandmarkSet]) -> str:
 
 
 def _read_tps(text: str, name: str) -> list[LandmarkSet]:
-    """Rohlf's TPS: ``LM=`` or ``LM3=`` and the points, curves by ``POINTS=``, then ``IMAGE=``, ``ID=``, ``SCALE=``."""
+    """Read Rohlf's TPS: ``LM=`` or ``LM3=`` and the points, curves by ``POINTS=``, ``IMAGE=``, ``ID=``, ``SCALE=``."""
     lines = (line.strip() for line in text.splitlines() if line.strip())
-    found: list[tuple[list[str], list[list[str]], dict[str, str]]] = []
+    specimens: list[tuple[list[str], list[list[str]], dict[str, str]]] = []
     curves = 0
     for line in lines:
         key, equals, value = (part.strip() for part in line.partition("="))
         key = key.upper()
         if key in ("LM", "LM3"):
-            found.append(([], [], {}))
+            specimens.append(([], [], {}))
             curves = 0
-        if not equals or not found:
+        if not equals or not specimens:
             raise refuse(name, "a keyword such as LM3= and its points", repr(line[:24]), REPAIR)
-        labels, rows, known = found[-1]
+        labels, rows, keywords = specimens[-1]
         if key not in ("LM", "LM3", "POINTS", "POINTS3"):
-            known[key] = value
+            keywords[key] = value
             continue
         prefix = ""
         if key.startswith("POINTS"):
             curves += 1
             prefix = f"curve{curves}_"
-        own = list(islice(lines, int(value)))
-        if len(own) < int(value):
-            raise refuse(name, f"{value} points after {key}=", f"{len(own)}", REPAIR)
-        rows += [point.split() for point in own]
-        labels += [f"{prefix}{i + 1}" for i in range(len(own))]
+        point_lines = list(islice(lines, int(value)))
+        if len(point_lines) < int(value):
+            raise refuse(name, f"{value} points after {key}=", f"{len(point_lines)}", REPAIR)
+        rows += [point.split() for point in point_lines]
+        labels += [f"{prefix}{i + 1}" for i in range(len(point_lines))]
     sets = []
-    for labels, rows, known in found:
-        image = Path(known.get("IMAGE", "").replace("\\", "/")).stem
-        number = known.get("ID", "")
+    for labels, rows, keywords in specimens:
+        image = Path(keywords.get("IMAGE", "").replace("\\", "/")).stem
+        number = keywords.get("ID", "")
         specimen = image if image and (not number or number.isdecimal()) else number
-        points = _points(rows, name) * float(known.get("SCALE", "1"))
+        points = _points(rows, name) * float(keywords.get("SCALE", "1"))
         sets.append(LandmarkSet(tuple(labels), points, specimen or str(len(sets) + 1)))
     return sets
 
 
 def _write_tps(sets: Sequence[LandmarkSet]) -> str:
-    """Landmarks and then curves, by ``POINTS=`` in three dimensions too, since geomorph knows no other word."""
+    """Write landmarks and then curves; geomorph reads curves only as ``POINTS=``, in three dimensions too."""
     lines = []
     for one in sets:
         fixed, curves = fixed_rows(one.names), find_curves(one.names)
@@ -311,7 +311,7 @@ def _write_tps(sets: Sequence[LandmarkSet]) -> str:
 
 
 def _read_pts(text: str, name: str) -> list[LandmarkSet]:
-    """Landmark Editor (Wiley et al. 2005): "Version 1.0", the number of points, then "name x y z" each."""
+    """Read Landmark Editor's format (Wiley et al. 2005): "Version 1.0", the number of points, "name x y z" each."""
     lines = [line.split() for line in text.splitlines() if line.strip()]
     if not lines[0][0].lower().startswith("version"):
         raise refuse(
@@ -335,7 +335,7 @@ def _write_pts(sets: Sequence[LandmarkSet]) -> str:
 
 
 def _read_particles(text: str, name: str) -> list[LandmarkSet]:
-    """ShapeWorks: a point "x y z" a line."""
+    """Read ShapeWorks' format: a point "x y z" a line."""
     rows = [line.split() for line in text.splitlines() if line.strip()]
     return [LandmarkSet(tuple(str(i + 1) for i in range(len(rows))), _points(rows, name))]
 
@@ -345,9 +345,9 @@ def _write_particles(sets: Sequence[LandmarkSet]) -> str:
 
 
 def _read_csv(text: str, name: str) -> list[LandmarkSet]:
-    """A table with a row for each landmark, or with a row for each specimen."""
-    first = text.partition("\n")[0]
-    mark = max(",;\t", key=first.count)
+    """Read a table with a row for each landmark, or with a row for each specimen."""
+    first_line = text.partition("\n")[0]
+    mark = max(",;\t", key=first_line.count)
     try:
         table = csv.reader(io.StringIO(text, newline=""), delimiter=mark, strict=True)
         rows = [[cell.strip() for cell in row] for row in table]
@@ -363,52 +363,52 @@ def _read_csv(text: str, name: str) -> list[LandmarkSet]:
     if triples:
         return _wide(titles, triples, rows[1:], name)
     if not is_number(rows[0][-1]) and rows[0][-1].lower() not in MISSING:
-        rows = rows[1:]  # titles that say nothing
+        rows = rows[1:]  # titles without a known name
     widths = sorted({len(row) for row in rows})
     if len(widths) != 1 or widths[0] > 4:
         got = f"rows of {', '.join(map(str, widths))} cells" if widths else "none"
-        wanted = 'rows "name, vertex" or "name, x, y, z", or titles such as specimen, name, x, y, z'
-        raise refuse(name, wanted, got, REPAIR)
+        expected = 'rows "name, vertex" or "name, x, y, z", or titles such as specimen, name, x, y, z'
+        raise refuse(name, expected, got, REPAIR)
     kind = {1: ["vertex"], 2: ["name", "vertex"], 3: ["x", "y", "z"], 4: ["name", "x", "y", "z"]}[widths[0]]
     return _long(kind, rows, name)
 
 
 def _long(titles: list[str], rows: list[list[str]], name: str) -> list[LandmarkSet]:
-    """A row for each landmark, or landmark and specimen."""
+    """Return the sets of a table with a row for each landmark, or each landmark and specimen."""
     bad = next((row for row in rows if len(row) != len(titles)), None)
     if bad is not None:
         raise refuse(name, f"{len(titles)} cells a row", f"{len(bad)}", REPAIR)
-    label = next((titles.index(one) for one in NAME_COLUMNS if one in titles), None)
-    owner = next((titles.index(one) for one in SPECIMEN_COLUMNS if one in titles), None)
-    spatial = all(axis in titles for axis in "xyz")
-    columns = [titles.index(axis) for axis in "xyz"] if spatial else [titles.index("vertex")]
+    name_column = next((titles.index(one) for one in NAME_COLUMNS if one in titles), None)
+    specimen_column = next((titles.index(one) for one in SPECIMEN_COLUMNS if one in titles), None)
+    has_points = all(axis in titles for axis in "xyz")
+    columns = [titles.index(axis) for axis in "xyz"] if has_points else [titles.index("vertex")]
     groups: dict[str, list[list[str]]] = {}
     for row in rows:
-        groups.setdefault("" if owner is None else row[owner], []).append(row)
+        groups.setdefault("" if specimen_column is None else row[specimen_column], []).append(row)
     sets = []
-    for specimen, own in groups.items():
-        names = tuple(str(i) if label is None else row[label] for i, row in enumerate(own, 1))
-        cells = [[row[i] for i in columns] for row in own]
-        if spatial:
+    for specimen, group in groups.items():
+        names = tuple(str(i) if name_column is None else row[name_column] for i, row in enumerate(group, 1))
+        cells = [[row[i] for i in columns] for row in group]
+        if has_points:
             sets.append(LandmarkSet(names, _points(cells, name), specimen))
             continue
         wrong = next((row[0] for row in cells if not re.fullmatch(r"[+-]?\d+(\.0*)?", row[0])), None)
         if wrong is not None:
             raise refuse(name, "whole numbers of vertices after the name", repr(wrong), REPAIR)
         vertices = np.array([int(float(row[0])) for row in cells], dtype=np.int64)
-        sets.append(LandmarkSet(names, np.full((len(own), 3), np.nan), specimen, vertices=vertices))
+        sets.append(LandmarkSet(names, np.full((len(group), 3), np.nan), specimen, vertices=vertices))
     return sets
 
 
 def _triples(titles: Sequence[str]) -> dict[str, list[int]]:
-    """The columns of x, y and z of each landmark of a table with a row for each specimen."""
-    found: dict[str, dict[str, int]] = {}
+    """Return the columns of x, y and z of each landmark, for a table with a row for each specimen."""
+    columns: dict[str, dict[str, int]] = {}
     for i, title in enumerate(titles):
         match = re.fullmatch(r"([xyzXYZ])[._ -]?(.+)|(.+?)[._ -]?([xyzXYZ])", title)
         if match is not None:
             label, axis = (match[2], match[1]) if match[1] else (match[3], match[4])
-            found.setdefault(label, {})[axis.lower()] = i
-    return {label: [axes[a] for a in "xyz"] for label, axes in found.items() if len(axes) == 3}
+            columns.setdefault(label, {})[axis.lower()] = i
+    return {label: [axes[a] for a in "xyz"] for label, axes in columns.items() if len(axes) == 3}
 
 
 def _wide(titles: list[str], triples: dict[str, list[int]], rows: list[list[str]], name: str) -> list[LandmarkSet]:
@@ -433,7 +433,7 @@ def _write_csv(sets: Sequence[LandmarkSet]) -> str:
 def wide_rows(sets: Sequence[LandmarkSet]) -> list[list[str]]:
     """Return a table with a row for each specimen and columns ``x_NAME``, ``y_NAME``, ``z_NAME``; titles first.
 
-    The titles are names that R takes as they are; a missing point is NA.
+    R reads the titles without changing them; a missing point is NA.
     """
     labels = [re.sub(r"[^A-Za-z0-9_.]", ".", label) for label in sets[0].names]
     rows = [["specimen", *(f"{axis}_{label}" for label in labels for axis in "xyz")]]

@@ -1,4 +1,4 @@
-"""What a map file holds of a match: arrays, each checked for its field, and a summary, plain values for JSON."""
+"""The content of a map file: the arrays of a match, each checked, and a summary of plain values for JSON."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from kfmaps.matching.result import SHAPE_FIELDS, Match
 _T = TypeVar("_T")
 
 Size = int | str | None
-"""Length of an axis: a number, the name of a length that arrays share ("s" and "t": vertices), or any."""
+"""Length of an axis: a number, the name of a length that arrays share ("s" and "t": vertices), or ``None`` for any."""
 
 _NUMBERED = {"s": "source vertices", "t": "target vertices", "f": "faces"}
 
@@ -29,22 +29,25 @@ _NUMBERED = {"s": "source vertices", "t": "target vertices", "f": "faces"}
 class _MapArray:
     """One array of a map file."""
 
-    field: str  # the field of :class:`kfmaps.Match` that it holds; a dot leads into a group of fields
+    field: str  # the field of :class:`kfmaps.Match` that it holds, with a dot before a field of a group
     shape: tuple[Size, ...]
-    # Whose numbers it holds, one letter of ``_NUMBERED`` a column; a .mat file counts them from 1. Empty for others.
+    # What it numbers: a letter of ``_NUMBERED`` for each column; a .mat file counts from 1. Empty for real numbers.
     of: str = ""
     missing: bool = False  # whether −1 may stand for a vertex without counterpart, or NaN for an unknown number
     high: float = np.inf  # greatest value of numbers that are at least 0; infinite where they are not bounded
 
     def check(self, value: object, name: str, sizes: dict[str, int | None]) -> np.ndarray:
-        """Return ``value`` as int64 or float64 where it is what the field wants, and add its lengths to ``sizes``."""
+        """Return ``value`` as int64 or float64 where it fits the field, and add its lengths to ``sizes``."""
         shape = tuple(sizes.get(size) if isinstance(size, str) else size for size in self.shape)
         array = check(real(value, name), name, shape=shape, finite=bool(self.of) or not self.missing, remedy=REPAIR)
         sizes |= {size: n for size, n in zip(self.shape, array.shape, strict=True) if isinstance(size, str)}
         if self.of:
             columns = array.T if len(self.of) > 1 else [array]
             checked = zip(columns, self.of, strict=True)
-            numbers = [_vertex_numbers(one, name, sizes.get(of), self.missing, _NUMBERED[of]) for one, of in checked]
+            numbers = [
+                _vertex_numbers(column, name, sizes.get(letter), self.missing, _NUMBERED[letter])
+                for column, letter in checked
+            ]
             return np.stack(numbers, axis=1) if len(numbers) > 1 else numbers[0]
         if np.isinf(array).any():
             raise refuse(name, "numbers, NaN where one is not known", "infinite ones", REPAIR)
@@ -73,11 +76,11 @@ ARRAYS = {
 }
 """The arrays of a map file by name; all but the first may be left out."""
 
-OLDER = {"config", "eigenvalues_s", "eigenvalues_t", "n_s", "runners_up", "place_faces", "bent", "map_back"}
-"""Names in files of older versions, which are refused."""
+OLD_NAMES = {"config", "eigenvalues_s", "eigenvalues_t", "n_s", "runners_up", "place_faces", "bent", "map_back"}
+"""Names that only files of older versions have; those files are refused."""
 
-_ELSEWHERE = {*(array.field for array in ARRAYS.values()), *SHAPE_FIELDS, "_reindexing"}
-"""Fields of a match that its summary does not hold."""
+_NOT_IN_SUMMARY = {*(array.field for array in ARRAYS.values()), *SHAPE_FIELDS, "_reindexing"}
+"""Fields of a match that are not in its summary."""
 
 
 def real(value: object, name: str) -> np.ndarray:
@@ -89,12 +92,17 @@ def real(value: object, name: str) -> np.ndarray:
 
 
 def check_map(
-    target_to_source: object, n_s: int | None = None, n_t: int | None = None, name: str = "map", *, lost: bool = False
+    target_to_source: object,
+    n_s: int | None = None,
+    n_t: int | None = None,
+    name: str = "map",
+    *,
+    partial: bool = False,
 ) -> np.ndarray:
-    """Return ``target_to_source`` as (n_t,) int64 where it names a source vertex for every target vertex.
+    """Return a map as (n_t,) int64 where it has a source vertex for every target vertex.
 
     ``target_to_source``: an array or a Match; ``n_s`` and ``n_t``: numbers of vertices of the source and target, when
-    known; ``name``: how messages call it; ``lost``: whether −1 may stand for a vertex without counterpart.
+    known; ``name``: of the map in messages; ``partial``: whether −1 may stand for a vertex without counterpart.
 
     Raises
     ------
@@ -106,41 +114,41 @@ def check_map(
     check(numbers, name, shape=(n_t,), remedy=remedy)
     if len(numbers) == 0:
         raise refuse(name, "a whole number for each target vertex", "none", REPAIR)
-    if not lost and numbers.min() == -1:
-        wanted, got = "a counterpart of every target vertex", f"{np.count_nonzero(numbers == -1)} without one"
-        raise refuse(name, wanted, got, "this needs a map between whole shapes")
-    return _vertex_numbers(numbers, name, n_s, lost, remedy=remedy)
+    if not partial and numbers.min() == -1:
+        expected, got = "a counterpart of every target vertex", f"{np.count_nonzero(numbers == -1)} without one"
+        raise refuse(name, expected, got, "this needs a map between whole shapes")
+    return _vertex_numbers(numbers, name, n_s, partial, remedy=remedy)
 
 
 def check_arrays(content: Mapping[str, Array], n_s: int | None, name: str) -> dict[str, Array]:
-    """Return the arrays of a map file, ``content``, by the field of a match that each one holds.
+    """Return the arrays of a map file by the field of a match that each one holds.
 
-    ``content``: names that no map file has are left out; ``n_s``: number of vertices of the source, where it is known;
-    ``name``: the file, for messages.
+    ``content``: of the file, by name; unknown names are left out; ``n_s``: number of vertices of the source, where it
+    is known; ``name``: of the file in messages.
     """
     sizes: dict[str, int | None] = {"s": n_s}
-    known = [(key, kind) for key, kind in ARRAYS.items() if key in content]
-    found: dict[str, Array] = {kind.field: kind.check(content[key], f"{name}: {key}", sizes) for key, kind in known}
-    if len(found["target_to_source"]) == 0:
+    present = [(key, kind) for key, kind in ARRAYS.items() if key in content]
+    arrays: dict[str, Array] = {kind.field: kind.check(content[key], f"{name}: {key}", sizes) for key, kind in present}
+    if len(arrays["target_to_source"]) == 0:
         raise refuse(f"{name}: target_to_source", "a whole number for each target vertex", "none", REPAIR)
-    if "alternatives" in found:
-        found["alternatives"] = tuple(found["alternatives"])
-    weights = found.get("precise_map.weights")
+    if "alternatives" in arrays:
+        arrays["alternatives"] = tuple(arrays["alternatives"])
+    weights = arrays.get("precise_map.weights")
     if weights is not None and np.abs(weights.sum(axis=1) - 1).max() > 1e-6:
         raise refuse(f"{name}: precise_weights", "numbers with sum 1 in each row", "others", REPAIR)
-    return found
+    return arrays
 
 
 def _vertex_numbers(
-    numbers: np.ndarray, name: str, n: int | None, lost: bool, what: str = "source vertices", remedy: str = REPAIR
+    numbers: np.ndarray, name: str, n: int | None, partial: bool, what: str = "source vertices", remedy: str = REPAIR
 ) -> np.ndarray:
-    """``numbers`` as int64 where they are from 0 to ``n - 1``, or any where ``n`` is ``None``; −1 where ``lost``."""
+    """Return ``numbers`` as int64 where they are from 0 (−1 where ``partial``) to ``n - 1``; ``None`` is no limit."""
     if numbers.dtype.kind == "f" and not (numbers == np.rint(numbers)).all():
         raise refuse(name, "a whole number for each vertex", "fractions", remedy)
     low, high = (numbers.min(), numbers.max()) if numbers.size else (0, 0)
-    if low < -int(lost) or high >= (2**53 if n is None else n):
-        wanted = f"{what} from 0 on" if n is None else f"{what} from 0 to {n - 1}"
-        raise refuse(name, wanted, f"{int(low if low < -int(lost) else high)}", remedy)
+    if low < -int(partial) or high >= (2**53 if n is None else n):
+        expected = f"{what} from 0 on" if n is None else f"{what} from 0 to {n - 1}"
+        raise refuse(name, expected, f"{int(low if low < -int(partial) else high)}", remedy)
     return numbers.astype(np.int64)
 
 
@@ -162,19 +170,19 @@ def summarize_match(match: Match) -> JsonObject:
 
 
 def mean_confidence(match: Match) -> float | None:
-    """Return the mean of ``local_confidence`` over the target's vertices; ``None`` where it is known at none."""
+    """Return the mean of ``local_confidence`` over the target's vertices; ``None`` where there is none."""
     values = getattr(match, "local_confidence", np.zeros(0))
     values = values[np.isfinite(values)]
     return float(values.mean()) if len(values) else None
 
 
 def plain_record(record: Any, arrays: dict[str, np.ndarray] | None = None, path: str = "") -> JsonObject:
-    """Return the fields of a record as plain values for JSON, without those that a map file keeps elsewhere.
+    """Return the fields of a record as plain values for JSON, without those that are arrays of a map file.
 
-    With ``arrays`` its arrays are put there, under dotted names, as :func:`read_record` takes them.
+    Where ``arrays`` is given, arrays are put into it, under dotted names, as :func:`read_record` takes them.
     """
-    kept = [f for f in fields(type(record)) if path + f.name not in _ELSEWHERE and f.name != "precise_map"]
-    return {f.name: _plain(getattr(record, f.name, None), f"{path}{f.name}", arrays) for f in kept}
+    names = [f for f in fields(type(record)) if path + f.name not in _NOT_IN_SUMMARY and f.name != "precise_map"]
+    return {f.name: _plain(getattr(record, f.name, None), f"{path}{f.name}", arrays) for f in names}
 
 
 def _plain(value: Any, path: str, arrays: dict[str, np.ndarray] | None) -> Any:
@@ -197,35 +205,35 @@ def _plain(value: Any, path: str, arrays: dict[str, np.ndarray] | None) -> Any:
 def read_record(
     cls: type[_T], values: object, name: str, arrays: Mapping[str, Array] | None = None, path: str = ""
 ) -> _T:
-    """Return a record of plain ``values`` and of ``arrays`` by field; what neither has is as by default.
+    """Return a record made of plain ``values`` and of ``arrays`` by field; fields in neither have their defaults.
 
-    ``name`` is the file's, ``path`` leads to the record in it, such as "fit.".
+    ``name``: of the file; ``path``: of the record in the file, such as "fit.".
     """
     arrays = arrays or {}
     if not isinstance(values, Mapping):
         raise refuse(f"{name}: {path[:-1] or 'summary'}", "the fields of a record", repr(values)[:60], REPAIR)
-    found: JsonObject = {}
-    for one in settings_of(cls).values():
-        label, value = path + one.name, values.get(one.name)
-        record = next((kind for kind in one.types if is_dataclass(kind)), None)
+    arguments: JsonObject = {}
+    for setting in settings_of(cls).values():
+        label, value = path + setting.name, values.get(setting.name)
+        record = next((kind for kind in setting.types if is_dataclass(kind)), None)
         if label in arrays:
-            found[one.name] = arrays[label]
+            arguments[setting.name] = arrays[label]
         elif record is Config:
-            found[one.name] = _config(value)
-        elif isinstance(record, type) and label not in _ELSEWHERE:
+            arguments[setting.name] = _config(value)
+        elif isinstance(record, type) and label not in _NOT_IN_SUMMARY:
             if value is not None or any(key.startswith(f"{label}.") for key in arrays):
-                found[one.name] = read_record(record, value or {}, name, arrays, f"{label}.")
-            elif one.optional:
-                found[one.name] = None
-        elif one.name in values and label not in _ELSEWHERE:
-            found[one.name] = _read_value(one.hint, value, f"{name}: {label}")
-        elif one.default is MISSING:
+                arguments[setting.name] = read_record(record, value or {}, name, arrays, f"{label}.")
+            elif setting.optional:
+                arguments[setting.name] = None
+        elif setting.name in values and label not in _NOT_IN_SUMMARY:
+            arguments[setting.name] = _read_value(setting.hint, value, f"{name}: {label}")
+        elif setting.default is MISSING:
             raise refuse(f"{name}: {label}", "a value", "none", REPAIR)
-    return cls(**found)
+    return cls(**arguments)
 
 
 def _read_value(hint: object, value: Any, label: str) -> Any:
-    """``value`` as one of the types of ``hint``; a number that was not finite is NaN."""
+    """Return ``value`` as one of the types of ``hint``; a number that was not finite is NaN."""
     kinds = types_of(hint)
     if value is None and NoneType in kinds:
         return None
@@ -248,7 +256,7 @@ def _read_value(hint: object, value: Any, label: str) -> Any:
 
 
 def _config(values: JsonObject | None) -> Config | None:
-    """The configuration of plain values; ``None`` where they name what only the user's own code has."""
+    """Return the configuration of plain values; ``None`` where they name objects of the user's own code."""
     try:
         return None if values is None else from_dict(values)
     except InvalidInput:

@@ -1,4 +1,4 @@
-"""Maps as files: a match saved and loaded, and the files of its two shapes found again."""
+"""Save and load matches as map files, and find the files of their two shapes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from kfmaps._arrays import Array, KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.atomic import atomic_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
-from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, read_record, real, summarize_match
+from kfmaps.io.mapcontent import ARRAYS, OLD_NAMES, check_arrays, read_record, real, summarize_match
 from kfmaps.io.matfile import check_unpacked, read_mat
 from kfmaps.io.meshes import read_mesh_file
 from kfmaps.io.record import MeshFile
@@ -27,8 +27,8 @@ from kfmaps.matching.result_groups import ShapeFile
 
 _FORMATS = (".npz", ".txt", ".vts", ".mat")
 
-_LARGEST = 1 << 31
-"""Bytes that a map file may unpack to: a map of 30 million vertices with all that is known of it."""
+_MAX_UNPACKED = 1 << 31
+"""Bytes that a map file may unpack to: enough for a whole match of 30 million vertices."""
 
 
 def save_map(path: str | Path, match: Match, force: bool = False) -> None:
@@ -49,7 +49,7 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
     Raises
     ------
     InvalidInput
-        On an unknown extension, an existing file, and what is no match.
+        On an unknown extension, an existing file, and anything but a match.
     """
     if not isinstance(match, Match):
         raise refuse("map", "a Match", type(match).__name__, "give what kfmaps.match returned")
@@ -75,8 +75,8 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
 def load_map(path: str | Path) -> Match:
     """Read a map that :func:`save_map` has written, or a list of vertices.
 
-    Nothing in the file is ever executed: pickled objects are refused. Whether the numbers fit two meshes is for
-    :func:`kfmaps.io.check_map` to say.
+    Nothing in the file is ever executed: pickled objects are refused. :func:`kfmaps.io.check_map` checks whether the
+    numbers fit two meshes.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def load_map(path: str | Path) -> Match:
     Returns
     -------
     Match
-        Its meshes and bases are not in the file; asking for one raises an error that says so.
+        Without meshes and bases, which the file does not hold; their attributes raise an error that says so.
 
     Raises
     ------
@@ -96,22 +96,24 @@ def load_map(path: str | Path) -> Match:
     """
     name, suffix = str(path), check_format(path)
     if suffix in (".txt", ".vts"):
-        return Match(read_vertex_numbers(path, lost=True))
+        return Match(read_vertex_numbers(path, partial=True))
     data = read_bytes(path)
     with complete_or_refuse(name, f"a complete {suffix} file"):
         content = (_npz_content if suffix == ".npz" else _mat_content)(data, name)
-    if old := sorted(OLDER.intersection(content)):
-        raise refuse(name, "a map of this version of kfmaps", f"an older one (with {old[0]})", "match the shapes again")
+    if old_names := sorted(OLD_NAMES.intersection(content)):
+        raise refuse(
+            name, "a map of this version of kfmaps", f"an older one (with {old_names[0]})", "match the shapes again"
+        )
     if "target_to_source" not in content:
         got = ", ".join(sorted(content)) or "an empty file"
-        raise refuse(name, "an array target_to_source", got, "give a map that kfmaps wrote")
+        raise refuse(name, "an array target_to_source", got, "give a map file that kfmaps wrote")
     text = content.get("summary", "{}")
     try:
         summary = json.loads(text)
     except (TypeError, ValueError, RecursionError) as error:
         raise refuse(f"{name}: summary", "a summary as JSON", "something else", REPAIR) from error
-    known = summary.get("source_file", {}) if isinstance(summary, dict) else {}
-    source = read_record(ShapeFile, known, name, path="source_file.")
+    file_values = summary.get("source_file", {}) if isinstance(summary, dict) else {}
+    source = read_record(ShapeFile, file_values, name, path="source_file.")
     return read_record(Match, summary, name, check_arrays(content, source.n_vertices, name))
 
 
@@ -125,41 +127,44 @@ def sha256(path: str | Path) -> str:
 
 
 def with_files(match: Match, paths: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> Match:
-    """Return the match with the files that its shapes, ``meshes``, were read from; paths become absolute."""
+    """Return the match with its ``meshes`` and the files that these were read from, as absolute paths."""
     source, target = (
         ShapeFile.of(mesh, str(path.absolute()), sha256(path)) for path, mesh in zip(paths, meshes, strict=True)
     )
     return replace(match, source=meshes[0], target=meshes[1], source_file=source, target_file=target)
 
 
-def mesh_path(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Path:
-    """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map."""
-    if given is not None:
-        return given
-    named = getattr(found, f"{side}_file").path
-    if not named:
+def mesh_path(path: Path | None, match: Match, side: str, map_path: Path, remedy: str = "") -> Path:
+    """Return the file of the shape ``side``: ``path``, else the one that the map names, there or beside the map.
+
+    ``map_path``: file of the map; ``remedy``: advice where there is no file, by default the command's option.
+    """
+    if path is not None:
+        return path
+    name = getattr(match, f"{side}_file").path
+    if not name:
         raise refuse(f"{side} mesh", "its file", "a map that does not name it", remedy or f"give --{side} FILE")
-    for path in (Path(named), beside.parent / named, beside.parent / Path(named).name):
-        if path.is_file():
-            return path
-    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", remedy or f"give --{side} FILE")
+    for candidate in (Path(name), map_path.parent / name, map_path.parent / Path(name).name):
+        if candidate.is_file():
+            return candidate
+    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {name}", remedy or f"give --{side} FILE")
 
 
-def map_mesh(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Mesh:
+def map_mesh(path: Path | None, match: Match, side: str, map_path: Path, remedy: str = "") -> Mesh:
     """Return the mesh of :func:`map_mesh_file`."""
-    return map_mesh_file(given, found, side, beside, remedy).mesh
+    return map_mesh_file(path, match, side, map_path, remedy).mesh
 
 
-def map_mesh_file(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> MeshFile:
+def map_mesh_file(path: Path | None, match: Match, side: str, map_path: Path, remedy: str = "") -> MeshFile:
     """Return the shape ``side`` of a map, read from :func:`mesh_path`, and warn where it has changed since.
 
-    What is odd about it was told when it was matched, and is not told again.
+    Oddities of the mesh were reported when it was matched, and are not reported again.
     """
-    path, known = mesh_path(given, found, side, beside, remedy), getattr(found, f"{side}_file").sha256
-    if known and sha256(path) not in ("", known):
-        warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
+    mesh_file, digest = mesh_path(path, match, side, map_path, remedy), getattr(match, f"{side}_file").sha256
+    if digest and sha256(mesh_file) not in ("", digest):
+        warnings.warn(f"{mesh_file} has changed since the map was made", KfmapsWarning, stacklevel=2)
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
-        return read_mesh_file(path)
+        return read_mesh_file(mesh_file)
 
 
 def check_format(path: str | Path) -> str:
@@ -168,9 +173,9 @@ def check_format(path: str | Path) -> str:
 
 
 def check_npy(file: IO[bytes], size: int, name: str) -> float:
-    """Return how many numbers an .npy file of ``size`` bytes holds; refuse a header that says more than fit."""
-    first = np.lib.format.read_magic(file) == (1, 0)
-    read = np.lib.format.read_array_header_1_0 if first else np.lib.format.read_array_header_2_0
+    """Return how many numbers an .npy file of ``size`` bytes holds; refuse a header that declares more than fit."""
+    is_version_1 = np.lib.format.read_magic(file) == (1, 0)
+    read = np.lib.format.read_array_header_1_0 if is_version_1 else np.lib.format.read_array_header_2_0
     shape, _, dtype = read(file)
     count = float(np.prod(shape, dtype=float))
     if count * dtype.itemsize > size:
@@ -179,7 +184,7 @@ def check_npy(file: IO[bytes], size: int, name: str) -> float:
 
 
 def _array(match: Match, name: str) -> np.ndarray | None:
-    """The array ``name`` of a file; ``None`` where the match has none."""
+    """Return the array ``name`` of a map file; ``None`` where the match has none."""
     value: Any = match
     for part in ARRAYS[name].field.split("."):
         value = getattr(value, part, None)
@@ -190,28 +195,28 @@ def _array(match: Match, name: str) -> np.ndarray | None:
 def _npz_content(data: bytes, name: str) -> dict[str, Array]:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         items = archive.infolist()
-        # What an archive unpacks to may be a thousand times its size: what it declares is looked at first.
-        check_unpacked(sum(item.file_size for item in items), _LARGEST, name)
+        # An archive may unpack to a thousand times its size, so the declared sizes are checked first.
+        check_unpacked(sum(item.file_size for item in items), _MAX_UNPACKED, name)
         total, loaded = 0.0, {}
         for item in items:
             with archive.open(item) as file:
                 total += check_npy(file, item.file_size, f"{name}: {item.filename}")
-            check_unpacked(8 * total, _LARGEST, name)
+            check_unpacked(8 * total, _MAX_UNPACKED, name)
             with archive.open(item) as file:
                 loaded[item.filename.removesuffix(".npy")] = np.lib.format.read_array(file, allow_pickle=False)
     return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}
 
 
 def _mat_content(data: bytes, name: str) -> dict[str, Array]:
-    content: dict[str, Array] = dict(read_mat(data, name, _LARGEST))
+    content: dict[str, Array] = dict(read_mat(data, name, _MAX_UNPACKED))
     for key, array in ARRAYS.items():
         value = content.get(key)
         if not isinstance(value, np.ndarray):
             continue
-        # A .mat file does not tell a list from a row or a column.
+        # A .mat file has no lists, only rows and columns.
         value = value.ravel() if len(array.shape) == 1 else value
         if array.of:
-            # Through float64, in which MATLAB keeps them: an unsigned 0 must not wrap around.
+            # As float64, which MATLAB uses: an unsigned 0 must not wrap around.
             numbers = real(value, f"{name}: {key}").astype(np.float64)
             if (numbers == 0).any():
                 raise refuse(f"{name}: {key}", "numbers from 1 on, -1 for none", "0", "a .mat file counts from 1")

@@ -1,6 +1,6 @@
-"""MATLAB's .mat files, version 5 (what ``save`` writes unless told ``-v7.3``), read strictly.
+"""Read MATLAB's .mat files of version 5 strictly; ``save`` writes them without the option ``-v7.3``.
 
-SciPy's reader is not used, since a damaged file can end the whole process there.
+A damaged file can end the whole process in SciPy's reader, so that is not used.
 """
 
 from __future__ import annotations
@@ -20,35 +20,35 @@ _ENCODINGS = {2: "latin-1", 4: "utf-16-le", 16: "utf-8", 17: "utf-16-le", 18: "u
 _CHAR, _NUMERIC, _COMPLEX = 4, range(6, 16), 0x0800
 
 
-def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarray | str]:
+def read_mat(data: bytes, name: str, limit: int = 1 << 31) -> dict[str, np.ndarray | str]:
     """Return the real arrays and texts of a .mat file by name; cells, structures and other kinds are left out.
 
-    ``name``: how messages call it; ``most``: bytes that the file may unpack to, every number counted as eight.
+    ``name``: how messages call it; ``limit``: bytes that the file may unpack to, every number counted as eight.
     """
     if data[:10] == b"MATLAB 7.3" or data[1:4] == b"HDF":
         raise refuse(name, "a .mat file of version 5 to 7", "version 7.3", "save it with the option -v7")
     if data[126:128] != b"IM":
         raise refuse(name, "a .mat file", "something else", "check the extension")
     content: dict[str, np.ndarray | str] = {}
-    at, taken = 128, 0.0
+    at, unpacked = 128, 0.0
     while at < len(data):
         kind, body, at = _element(data, at, name, top=True)
         if kind == _COMPRESSED:
-            body = _unpacked(body, name, taken, most)
-            taken += len(body)
+            body = _unpacked(body, name, unpacked, limit)
+            unpacked += len(body)
             kind, body, _ = _element(body, 0, name)
         if kind != _MATRIX:
             raise _damaged(name)
-        found = _variable(body, name)
-        if found is not None:
-            content[found[0]] = found[1]
-            taken += 8 * np.size(found[1]) if isinstance(found[1], np.ndarray) else 4 * len(found[1])
-            check_unpacked(taken, most, name)
+        variable = _variable(body, name)
+        if variable is not None:
+            content[variable[0]] = variable[1]
+            unpacked += 8 * np.size(variable[1]) if isinstance(variable[1], np.ndarray) else 4 * len(variable[1])
+            check_unpacked(unpacked, limit, name)
     return content
 
 
-def _unpacked(body: bytes, name: str, taken: float, most: int) -> bytes:
-    """A compressed element, of which not more is unpacked than it says, nor with ``taken`` more than ``most`` bytes."""
+def _unpacked(body: bytes, name: str, unpacked: float, limit: int) -> bytes:
+    """Unpack a compressed element, at most as many bytes as it declares, and with ``unpacked`` at most ``limit``."""
     stream = zlib.decompressobj()
     try:
         head = stream.decompress(body, 8)
@@ -56,7 +56,7 @@ def _unpacked(body: bytes, name: str, taken: float, most: int) -> bytes:
             raise _damaged(name)
         kind, size = struct.unpack("<2I", head)
         size = 0 if kind >> 16 else size  # a small element is all in its head
-        check_unpacked(taken + size, most, name)
+        check_unpacked(unpacked + size, limit, name)
         rest = stream.decompress(stream.unconsumed_tail, size) if size else b""
         stream.decompress(stream.unconsumed_tail, 8)
     except zlib.error as error:
@@ -66,11 +66,11 @@ def _unpacked(body: bytes, name: str, taken: float, most: int) -> bytes:
     return head + rest
 
 
-def check_unpacked(size: float, most: int, name: str) -> None:
-    """Refuse a map file that unpacks to more than ``most`` bytes."""
-    if size > most:
-        wanted = f"a map of at most {format_bytes(most)} unpacked"
-        raise refuse(name, wanted, format_bytes(size), "a map takes a few numbers for each vertex: check the file")
+def check_unpacked(size: float, limit: int, name: str) -> None:
+    """Refuse a map file that unpacks to more than ``limit`` bytes."""
+    if size > limit:
+        expected = f"a map of at most {format_bytes(limit)} unpacked"
+        raise refuse(name, expected, format_bytes(size), "a map takes a few numbers for each vertex: check the file")
 
 
 def _damaged(name: str) -> Exception:
@@ -98,8 +98,8 @@ def _variable(body: bytes, name: str) -> tuple[str, np.ndarray | str] | None:
     _, flags, at = _element(body, 0, name)
     if len(flags) != 8:
         raise _damaged(name)
-    kind, flag = flags[0], int.from_bytes(flags[:4], "little")
-    if (kind != _CHAR and kind not in _NUMERIC) or flag & _COMPLEX:
+    kind, flag_bits = flags[0], int.from_bytes(flags[:4], "little")
+    if (kind != _CHAR and kind not in _NUMERIC) or flag_bits & _COMPLEX:
         return None
     code, raw_shape, at = _element(body, at, name)
     _, title, at = _element(body, at, name)

@@ -1,4 +1,4 @@
-"""Meshes and point clouds from files and to files."""
+"""Read and write meshes and point clouds."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
 def _parse_xyz(data: bytes, name: str) -> MeshFile:
-    """A point cloud: ``x y z`` a line; further columns (a normal, a colour), alike in all lines, are left out."""
+    """Read a point cloud: ``x y z`` a line; further columns (a normal, a colour) are left out."""
     rows = parse_rows(clean_text(data, name), name)
     columns = as_table(rows, (3, 4, 6, 7, 9, 10), name, "x y z, the same number of columns in every line")
     return MeshFile(Mesh(columns[:, :3], np.zeros((0, 3), dtype=np.int64)))
@@ -46,14 +46,14 @@ _WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": 
 
 _MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
-_LARGEST = 1e70  # coordinates beyond this overflow in areas and are refused; no unit makes them meaningful
+_MAX_COORDINATE = 1e70  # larger coordinates overflow in areas; no unit makes them meaningful
 
 
 def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     """Read a mesh or point cloud.
 
     Formats are OFF (COFF, NOFF, STOFF), OBJ, PLY (text, binary), STL, polygonal data of VTK (``.vtk``, ``.vtp``), glTF,
-    GLB, and ``.xyz`` for point clouds, told apart by the extension. Vertices keep their order and number and nothing
+    GLB, and ``.xyz`` for point clouds; the extension decides. Vertices keep their order and number and nothing
     is merged, except in STL, which has no shared vertices (see :func:`kfmaps.io.stl.parse_stl`). Polygons become fans
     of triangles.
 
@@ -61,7 +61,7 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     ----------
     path : str or Path
     cloud : bool
-        Whether a file without faces is welcome as a point cloud.
+        Whether a file without faces is read as a point cloud; else it is refused.
 
     Raises
     ------
@@ -80,68 +80,74 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
 
 
 def read_shape_mesh(path: str | Path) -> Mesh:
-    """Read a mesh. A file without faces is a point cloud only when its name says so; else something was lost."""
+    """Read a mesh, or a point cloud from ``.xyz``. Another file without faces is refused, since it lost them."""
     return read_mesh(path, cloud=Path(path).suffix.lower() == ".xyz")
 
 
 def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
-    """Read ``path`` as :func:`read_mesh` does (``cloud`` too), with the colours and texture coordinates that it has."""
+    """Read ``path`` as :func:`read_mesh` does, with its colours, texture, morph targets and skin."""
     name, suffix = str(path), check_suffix(path, READERS, remedy="convert or rename the file")
     with np.errstate(all="ignore"), complete_or_refuse(name, f"a complete {suffix} file"):  # wild numbers: see below
-        found = READERS[suffix](read_bytes(path), name)
-    found = _place_unplaced(found, name)
-    places, weights = found.mesh.vertices, None if found.skin is None else found.skin.weights
-    arrays = {"vertices": places, "colors": found.colors, "texture": found.uv, "weights": weights, **found.morphs}
+        content = READERS[suffix](read_bytes(path), name)
+    content = _place_unplaced(content, name)
+    vertices, weights = content.mesh.vertices, None if content.skin is None else content.skin.weights
+    arrays = {
+        "vertices": vertices,
+        "colors": content.colors,
+        "texture": content.uv,
+        "weights": weights,
+        **content.morphs,
+    }
     for what, values in arrays.items():
         if values is not None:
             check(values, f"{name}: {what}", remedy="repair or re-export the file")
-    size = np.abs(places).max(initial=0.0)
-    if size > _LARGEST:
-        raise refuse(f"{name}: vertices", f"coordinates up to {_LARGEST:g}", f"{size:g}", "repair the file")
-    check_mesh(found.mesh, name, cloud=cloud)
-    _warn_of_oddities(found.mesh, name)
-    return found
+    size = np.abs(vertices).max(initial=0.0)
+    if size > _MAX_COORDINATE:
+        raise refuse(f"{name}: vertices", f"coordinates up to {_MAX_COORDINATE:g}", f"{size:g}", "repair the file")
+    check_mesh(content.mesh, name, cloud=cloud)
+    _warn_of_oddities(content.mesh, name)
+    return content
 
 
-def _place_unplaced(found: MeshFile, name: str) -> MeshFile:
-    """Put vertices whose coordinates are NaN at the mean of their neighbours, where they are few and have some."""
-    vertices, faces = found.mesh.vertices, found.mesh.faces
-    bad = np.asarray(np.isnan(vertices).any(axis=1))
-    if not bad.any() or bad.mean() > _MAX_UNPLACED:
-        return found
+def _place_unplaced(content: MeshFile, name: str) -> MeshFile:
+    """Put vertices with NaN coordinates at the mean of their neighbours, where these vertices are few."""
+    vertices, faces = content.mesh.vertices, content.mesh.faces
+    is_unplaced = np.asarray(np.isnan(vertices).any(axis=1))
+    if not is_unplaced.any() or is_unplaced.mean() > _MAX_UNPLACED:
+        return content
     vertices = vertices.copy()
-    for v in np.flatnonzero(bad):
-        around = np.unique(faces[(faces == v).any(axis=1)])
-        around = around[~bad[around]]
-        if len(around) == 0:
-            return found
-        vertices[v] = found.mesh.vertices[around].mean(axis=0)
-    told = f"vertices without a position (NaN): {bad.sum()}; put between neighbours, the numbering stays"
-    warnings.warn(f"{shown(name)}: {told}", KfmapsWarning, stacklevel=4)
-    return replace(found, mesh=Mesh(vertices, faces))
+    for v in np.flatnonzero(is_unplaced):
+        neighbours = np.unique(faces[(faces == v).any(axis=1)])
+        neighbours = neighbours[~is_unplaced[neighbours]]
+        if len(neighbours) == 0:
+            return content
+        vertices[v] = content.mesh.vertices[neighbours].mean(axis=0)
+    message = f"vertices without a position (NaN): {is_unplaced.sum()}; put between neighbours, the numbering stays"
+    warnings.warn(f"{shown(name)}: {message}", KfmapsWarning, stacklevel=4)
+    return replace(content, mesh=Mesh(vertices, faces))
 
 
 def _warn_of_oddities(mesh: Mesh, name: str) -> None:
-    """One warning that names everything unusual about the surface."""
+    """Warn once of everything unusual about the surface."""
     if len(mesh.faces) == 0:
         return
     counts = topology(mesh)
-    apart = counts.duplicated_vertices - clean_mesh(mesh).n_welded  # who connects seams tells of them
-    odd = [
+    n_duplicated = counts.duplicated_vertices - clean_mesh(mesh).n_welded  # whoever welds the others reports them
+    oddities = [
         (counts.components if counts.components > 1 else 0, "component", "components"),
         (counts.boundary_loops, "boundary loop", "boundary loops"),
         (counts.nonmanifold_edges, "non-manifold edge", "non-manifold edges"),
         (counts.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"),
         (counts.inconsistent_edges, "inconsistently oriented edge", "inconsistently oriented edges"),
-        (apart, "duplicated vertex", "duplicated vertices"),
+        (n_duplicated, "duplicated vertex", "duplicated vertices"),
     ]
-    told = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in odd if count)
-    if told:
-        warnings.warn(f"{shown(name)}: {told}. All is kept as it is.", KfmapsWarning, stacklevel=4)
+    message = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in oddities if count)
+    if message:
+        warnings.warn(f"{shown(name)}: {message}. All is kept as it is.", KfmapsWarning, stacklevel=4)
 
 
 def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None, force: bool = False) -> None:
-    """Write OFF (COFF with colours), OBJ or binary PLY, told apart by the extension; every digit is kept.
+    """Write OFF (COFF with colours), OBJ, binary PLY or GLB, as the extension says; text keeps every digit.
 
     Parameters
     ----------
@@ -159,5 +165,5 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
     """
     check_is_mesh(mesh)
     writer = _WRITERS[check_suffix(path, _WRITERS, "output", "choose one of these")]
-    given = None if colors is None else checked_colors(colors, len(mesh.vertices))
-    write_bytes(path, writer(MeshFile(mesh, given)), force)
+    fractions = None if colors is None else checked_colors(colors, len(mesh.vertices))
+    write_bytes(path, writer(MeshFile(mesh, fractions)), force)

@@ -1,4 +1,4 @@
-"""Wavefront OBJ: vertices with colours, texture coordinates and polygons; of materials the picture alone."""
+"""Wavefront OBJ: vertices with colours, texture coordinates, polygons, and the picture of the materials."""
 
 from __future__ import annotations
 
@@ -55,48 +55,48 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     text = clean_text(data, name).replace(b"\\\n", b"  ")  # after a backslash the line goes on
     lines = {word: _Lines() for word in (b"v", b"vt", b"f")}
     vertices, texture, faces = lines.values()
-    before: list[tuple[int, int]] = []  # of each face: vertices and texture coordinates read so far
-    said: list[tuple[int, str, str]] = []
+    counts_before: list[tuple[int, int]] = []  # of each face: vertices and texture coordinates read so far
+    material_lines: list[tuple[int, str, str]] = []
     for number, line in enumerate(text.split(b"\n"), 1):
         word, *rest = line.split(None, 1) or [b"#"]
-        kind = lines.get(word)
-        if kind is not None:
-            kind.contents.append(rest[0] if rest else b"")
-            kind.numbers.append(number)
-            if kind is faces:
-                before.append((len(vertices.numbers), len(texture.numbers)))
+        group = lines.get(word)
+        if group is not None:
+            group.contents.append(rest[0] if rest else b"")
+            group.numbers.append(number)
+            if group is faces:
+                counts_before.append((len(vertices.numbers), len(texture.numbers)))
         elif word in (b"mtllib", b"usemtl"):
-            said.append((number, word.decode(), b"".join(rest).strip().decode("utf-8", "replace")))
+            material_lines.append((number, word.decode(), b"".join(rest).strip().decode("utf-8", "replace")))
         elif word not in _SKIPPED:
             raise refuse(f"{name}, line {number}", "a word of the OBJ format", quoted(word), REPAIR)
 
-    places, colors = _vertices(_numbers(vertices, name, "v x y z"), name)
+    positions, colors = _vertices(_numbers(vertices, name, "v x y z"), name)
     uv = as_table(_numbers(texture, name, "vt u v"), (2, 3), name, "vt u v")[:, :2].copy()
     sizes, numbers = _corners(faces, name)
-    triangles, at, counts = fan(sizes), np.array(faces.numbers), np.array(before).reshape(-1, 2)
+    triangles, face_lines, counts = fan(sizes), np.array(faces.numbers), np.array(counts_before).reshape(-1, 2)
 
     def absolute(column: int, total: int) -> np.ndarray:
         so_far = np.repeat(counts[:, column], sizes)
-        return _absolute(numbers[:, column], so_far, total, np.repeat(at, sizes), name)[triangles]
+        return _absolute(numbers[:, column], so_far, total, np.repeat(face_lines, sizes), name)[triangles]
 
-    mesh = Mesh(places, absolute(0, len(places)))
+    mesh = Mesh(positions, absolute(0, len(positions)))
     if len(numbers) == 0 or (numbers[:, 1] == 0).any():
         return MeshFile(mesh, colors)
-    return MeshFile(mesh, colors, uv, absolute(1, len(uv)), _picture(said, at, name))
+    return MeshFile(mesh, colors, uv, absolute(1, len(uv)), _picture(material_lines, face_lines, name))
 
 
-def _numbers(lines: _Lines, name: str, wanted: str) -> Rows:
-    """The numbers of lines, each of which must have some."""
+def _numbers(lines: _Lines, name: str, expected: str) -> Rows:
+    """Return the numbers of lines; a line without any is refused."""
     at = np.array(lines.numbers, dtype=np.int64)
     rows = parse_rows(b"\n".join(lines.contents), name, at)
-    check_lines(~np.isin(at, rows.lines), at, name, wanted, lambda _: "no numbers")
+    check_lines(~np.isin(at, rows.lines), at, name, expected, lambda _: "no numbers")
     return rows
 
 
 def _vertices(rows: Rows, name: str) -> tuple[np.ndarray, np.ndarray | None]:
     """Positions (n, 3), and colours (n, 3) when every vertex has them."""
-    odd = ~np.isin(rows.counts, (3, 4, 6, 7))
-    check_lines(odd, rows.lines, name, "v x y z, or v x y z r g b", lambda i: f"{rows.counts[i]} numbers")
+    bad_counts = ~np.isin(rows.counts, (3, 4, 6, 7))
+    check_lines(bad_counts, rows.lines, name, "v x y z, or v x y z r g b", lambda i: f"{rows.counts[i]} numbers")
     weight = rows.values[rows.starts[rows.counts == 4] + 3]
     if (weight != 1).any():
         got = f"{weight[weight != 1][0]:g}"
@@ -108,7 +108,7 @@ def _vertices(rows: Rows, name: str) -> tuple[np.ndarray, np.ndarray | None]:
 
 
 def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray]:
-    """How many corners each face has, and (corners, 2) vertex and texture numbers (0: none)."""
+    """Return how many corners each face has, and (corners, 2) vertex and texture numbers (0: none)."""
     body, numbers = b"\n".join(lines.contents), np.array(lines.numbers, dtype=np.int64)
     at, line = split_words(body)
     sizes = np.bincount(line, minlength=len(numbers))[: len(numbers)]
@@ -125,54 +125,54 @@ def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray]:
     return sizes, np.stack([values[first], second], axis=1)
 
 
-def _absolute(numbers: np.ndarray, before: np.ndarray, total: int, at: np.ndarray, name: str) -> np.ndarray:
-    """0-based numbers of what is counted from 1, or backwards from the ``before`` ones already read."""
+def _absolute(numbers: np.ndarray, before: np.ndarray, total: int, face_lines: np.ndarray, name: str) -> np.ndarray:
+    """Return 0-based numbers; those in the file count from 1, or backwards from the ``before`` that were read."""
     result = np.where(numbers > 0, numbers - 1, before + numbers)
     bad = (numbers == 0) | (result < 0) | (result >= total)
-    wanted = f"numbers from 1 to {total}, or negative ones counted back from the last"
-    check_lines(bad, at, name, wanted, lambda i: str(numbers[i]))
+    expected = f"numbers from 1 to {total}, or negative ones counted back from the last"
+    check_lines(bad, face_lines, name, expected, lambda i: str(numbers[i]))
     return result
 
 
-def _picture(said: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> Picture | None:
-    """The one colour texture (``map_Kd``) of all faces, in an MTL file beside the OBJ file; ``None`` if there is none.
+def _picture(material_lines: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> Picture | None:
+    """Return the one colour texture (``map_Kd``) of all faces, from an MTL file beside the OBJ file; else ``None``.
 
-    Files that are missing, lie elsewhere than in the folder of the OBJ file or below it, or are no PNG or JPEG are none
-    either, and so are pictures that are moved or scaled: who wants the shape alone need not have them. Specification:
+    The shape can be read without its texture. So there is also none where a file is missing, lies outside the folder of
+    the OBJ file, or is no PNG or JPEG, and where the material moves or scales the picture. Specification:
     Alias/Wavefront, "MTL material format", 1995.
 
-    ``said``: the file's lines ``mtllib`` and ``usemtl``: number, word, rest; ``faces (p,)``: the line of each face.
+    ``material_lines``: number, word and rest of the lines ``mtllib`` and ``usemtl``; ``faces (p,)``: line of each face.
     """
-    used = [(line, rest) for line, word, rest in said if word == "usemtl"]
+    used = [(line, rest) for line, word, rest in material_lines if word == "usemtl"]
     if not used or len(faces) == 0:
         return None
-    last = np.searchsorted([line for line, _ in used], faces) - 1
-    if last.min() < 0:
+    material_of_face = np.searchsorted([line for line, _ in used], faces) - 1
+    if material_of_face.min() < 0:
         return None  # faces before any material
     pictures: dict[str, str | None] = {}
-    for _, word, rest in said:
+    for _, word, rest in material_lines:
         if word == "mtllib":
             for path in _libraries(rest, name):
                 pictures |= _read_materials(read_bytes(path).decode("utf-8", "replace"))
-    found = {pictures.get(used[i][1]) for i in np.unique(last)}
-    picture = found.pop() if len(found) == 1 else None
+    names = {pictures.get(used[i][1]) for i in np.unique(material_of_face)}
+    picture = names.pop() if len(names) == 1 else None
     path = None if picture is None else _file(picture, name)
     return None if path is None else picture_in(read_bytes(path))
 
 
 def _read_materials(text: str) -> dict[str, str | None]:
-    """Return the picture that each material of an MTL file names; ``None`` where it has none as it is."""
-    found: dict[str, str | None] = {}
+    """Return the picture that each material of an MTL file names; ``None`` for one without or with a changed one."""
+    pictures: dict[str, str | None] = {}
     current = None
     for line in text.splitlines():
         word, _, rest = line.strip().replace("\t", " ").partition(" ")
         rest = rest.strip()
         if word == "newmtl":
             current = rest
-            found.setdefault(current, None)
+            pictures.setdefault(current, None)
         elif word.lower() == "map_kd" and current is not None:
-            found[current] = _plain(rest)
-    return found
+            pictures[current] = _plain(rest)
+    return pictures
 
 
 _OPTION = re.compile(r"(-[ost])((?:\s+[-+.\deE]+){1,3})\s+|-mm\s+\S+\s+\S+\s+|-\w+\s+\S+\s+")
@@ -180,23 +180,23 @@ _OPTION = re.compile(r"(-[ost])((?:\s+[-+.\deE]+){1,3})\s+|-mm\s+\S+\s+\S+\s+|-\
 
 
 def _plain(rest: str) -> str | None:
-    """The file of a map, after its options; ``None`` where these move or scale the picture."""
+    """Return the file of a texture map, after its options; ``None`` where these move or scale the picture."""
     while option := _OPTION.match(rest):
-        still = 1.0 if option[1] == "-s" else 0.0
-        if option[1] and any(float(value) != still for value in option[2].split() if is_number(value)):
+        neutral = 1.0 if option[1] == "-s" else 0.0
+        if option[1] and any(float(value) != neutral for value in option[2].split() if is_number(value)):
             return None
         rest = rest[option.end() :]
     return rest or None
 
 
 def _libraries(rest: str, name: str) -> list[Path]:
-    """The files of a line ``mtllib``: one whose name may have spaces, or several."""
+    """Return the files of a line ``mtllib``: one file whose name may have spaces, or several files."""
     single = _file(rest, name)
     return [single] if single else [path for word in rest.split() if (path := _file(word, name))]
 
 
 def _file(address: str, name: str) -> Path | None:
-    """The file that a relative name means, in the folder of ``name`` or below it; ``None`` when it is not there."""
+    """Return the file of a relative name in the folder of ``name`` or below it; ``None`` where there is none."""
     path = beside(address.replace("\\", "/"), name)
     return path if path is not None and path.is_file() and path.stat().st_size else None
 

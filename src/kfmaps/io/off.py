@@ -27,22 +27,22 @@ def parse_off(data: bytes, name: str) -> MeshFile:
         raise refuse(name, "the word OFF first", quoted(text.lstrip()[:16]), "check the extension")
     textured, kinds, dimensions, binary = header.groups()
     if dimensions or binary:
-        what = "binary" if binary else "another dimension"
-        raise refuse(name, "text OFF with x, y and z", what, "export it as plain OFF")
+        got = "binary" if binary else "another dimension"
+        raise refuse(name, "text OFF with x, y and z", got, "export it as plain OFF")
     rows = parse_rows(re.sub(rb"\S", b" ", text[: header.end()]) + text[header.end() :], name)
     if len(rows) == 0 or rows.counts[0] not in (2, 3):
         raise refuse(name, "the numbers of vertices, faces and edges after OFF", "none", REPAIR)
     n, f = (int(c) for c in whole_numbers(rows.values[:2], f"{name}: counts"))
-    have = len(rows) - 1
-    if n < 0 or f < 0 or have != n + f:
-        what = "the file is cut short or its counts are wrong: export it again"
-        raise refuse(name, f"lines for {n} vertices and {f} faces", f"{have} lines", what)
+    n_lines = len(rows) - 1
+    if n < 0 or f < 0 or n_lines != n + f:
+        remedy = "the file is cut short or its counts are wrong: export it again"
+        raise refuse(name, f"lines for {n} vertices and {f} faces", f"{n_lines} lines", remedy)
 
-    before, behind = 3 + 3 * (b"N" in kinds), 2 * bool(textured)  # numbers on either side of the colour
-    widths = (before + 4 + behind, before + 3 + behind) if b"C" in kinds else (before + behind,)
-    wanted = f"{' or '.join(map(str, widths))} numbers a vertex"
-    columns = as_table(rows.part(1, 1 + n), widths, name, wanted)
-    colors = unit_colors(columns[:, before : columns.shape[1] - behind]) if b"C" in kinds else None
+    n_before, n_after = 3 + 3 * (b"N" in kinds), 2 * bool(textured)  # numbers on either side of the colour
+    widths = (n_before + 4 + n_after, n_before + 3 + n_after) if b"C" in kinds else (n_before + n_after,)
+    expected = f"{' or '.join(map(str, widths))} numbers a vertex"
+    columns = as_table(rows.part(1, 1 + n), widths, name, expected)
+    colors = unit_colors(columns[:, n_before : columns.shape[1] - n_after]) if b"C" in kinds else None
     faces = _faces(rows.part(1 + n, 1 + n + f), name)
     uv = columns[:, -2:].copy() if textured else None
     return MeshFile(Mesh(columns[:, :3], faces), colors, uv, faces if textured else None)
@@ -52,8 +52,8 @@ def _faces(rows: Rows, name: str) -> np.ndarray:
     """The triangles of the face lines, (t, 3)."""
     sizes = whole_numbers(rows.values[rows.starts], f"{name}: corners of a face")
     check_lines(sizes < 3, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
-    short, wanted = sizes >= rows.counts, "as many corners as the line says"
-    check_lines(short, rows.lines, name, wanted, lambda i: f"{rows.counts[i] - 1} of {sizes[i]}")
+    is_short, expected = sizes >= rows.counts, "as many corners as the line says"
+    check_lines(is_short, rows.lines, name, expected, lambda i: f"{rows.counts[i] - 1} of {sizes[i]}")
     corners = rows.values[index_ranges(rows.starts + 1, sizes)]
     return whole_numbers(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
 

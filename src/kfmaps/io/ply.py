@@ -48,8 +48,8 @@ def _text_columns(element: _Element, rows: Rows, name: str) -> dict[str, _Column
     def step(lengths: np.ndarray | int) -> None:
         nonlocal at
         at = at + lengths
-        wanted = f"every property of a {element.name}"
-        check_lines(at > ends, rows.lines, name, wanted, lambda i: f"only {rows.counts[i]} numbers")
+        expected = f"every property of a {element.name}"
+        check_lines(at > ends, rows.lines, name, expected, lambda i: f"only {rows.counts[i]} numbers")
 
     columns = {}
     for item in element.properties.values():
@@ -63,13 +63,13 @@ def _text_columns(element: _Element, rows: Rows, name: str) -> dict[str, _Column
         first = at
         step(sizes)
         columns[item.name] = _Column(_typed(rows.values[index_ranges(first, sizes)], item, name), sizes)
-    wanted = f"only the properties of a {element.name}"
-    check_lines(at < ends, rows.lines, name, wanted, lambda i: f"{rows.counts[i]} numbers")
+    expected = f"only the properties of a {element.name}"
+    check_lines(at < ends, rows.lines, name, expected, lambda i: f"{rows.counts[i]} numbers")
     return columns
 
 
 def _typed(values: np.ndarray, item: _Property, name: str) -> np.ndarray:
-    """``values`` from a text in the type that the header gives; fractions keep every digit of the text."""
+    """Return ``values`` of a text in the type that the header gives; fractions keep every digit of the text."""
     if item.kind.kind == "f":
         return values
     numbers = whole_numbers(values, f"{name}: {item.name}")
@@ -108,13 +108,13 @@ def _binary_columns(element: _Element, data: bytes, start: int, name: str) -> tu
     raw, columns = np.frombuffer(data, dtype=np.uint8), {}
     for item, first, lengths in zip(properties, offsets, sizes, strict=True):
         skip = item.count.itemsize if item.count else 0
-        taken = raw[index_ranges(first + skip, lengths * item.kind.itemsize)].view(item.kind)
-        columns[item.name] = _Column(taken, lengths if item.count else None)
+        values = raw[index_ranges(first + skip, lengths * item.kind.itemsize)].view(item.kind)
+        columns[item.name] = _Column(values, lengths if item.count else None)
     return columns, end
 
 
 def _walk(element: _Element, data: bytes, start: int, rows: int, name: str) -> tuple[np.ndarray, np.ndarray, int]:
-    """Step through ``rows`` rows: where each property begins and how many values it has, (p, rows) both."""
+    """Return where each property begins in ``rows`` rows, how many values it has, (p, rows) both, and the end."""
     steps = []
     for item in element.properties.values():
         code = item.count or item.kind
@@ -155,28 +155,28 @@ def parse_ply(data: bytes, name: str) -> MeshFile:
     vertex_index) of the element face. All else is left out, but must fit the header.
     """
     order, elements, start = _header(data, name)
-    found: dict[str, dict[str, _Column]] = {}
+    columns: dict[str, dict[str, _Column]] = {}
     if order == "":
         rows = parse_rows(clean_text(data[start:], name), name)
         first = 0
         if len(rows) != sum(e.rows for e in elements):
             shown = [f"{e.rows} lines of {e.name}" for e in elements[:4]]
-            wanted = " and ".join(shown + [f"{len(elements) - 4} elements more"] * (len(elements) > 4))
-            raise refuse(name, wanted, f"{len(rows)} lines", _CUT)
+            expected = " and ".join(shown + [f"{len(elements) - 4} elements more"] * (len(elements) > 4))
+            raise refuse(name, expected, f"{len(rows)} lines", _CUT)
         for element in elements:
-            found[element.name] = _text_columns(element, rows.part(first, first + element.rows), name)
+            columns[element.name] = _text_columns(element, rows.part(first, first + element.rows), name)
             first += element.rows
-        return _mesh_file(found, name)
+        return _mesh_file(columns, name)
     for element in elements:
-        found[element.name], start = _binary_columns(element, data, start, name)
+        columns[element.name], start = _binary_columns(element, data, start, name)
     if data[start:].strip():
-        what = "a header that counts all of it; it was perhaps copied as text"
-        raise refuse(name, what, f"{len(data) - start} bytes more", REPAIR)
-    return _mesh_file(found, name)
+        remedy = f"{REPAIR}; it may have been copied as text"
+        raise refuse(name, "a file that ends where its header says", f"{len(data) - start} bytes more", remedy)
+    return _mesh_file(columns, name)
 
 
 def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
-    """Byte order ('' for text), elements, and where the body begins."""
+    """Return byte order ('' for text), elements, and where the body begins."""
     opening = re.match(rb"ply[ \t]*(\r?\n|\r)", data)
     if opening is None:
         raise refuse(name, "the word ply first", quoted(data[:16]), "check the extension")
@@ -191,9 +191,9 @@ def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
         where = f"{name}, line {i}"
         match words:
             case ["end_header"]:
-                bare = [one.name for one in elements.values() if not one.properties]
-                if order is None or bare:
-                    got = "none" if order is None else f"none for {bare[0]}"
+                empty = [one.name for one in elements.values() if not one.properties]
+                if order is None or empty:
+                    got = "none" if order is None else f"none for {empty[0]}"
                     raise refuse(f"{name}: header", "a format, and properties of each element", got, REPAIR)
                 return order, list(elements.values()), at
             case [] | ["comment" | "obj_info", *_]:
@@ -224,9 +224,9 @@ def _property(words: list[str], order: str, where: str) -> _Property:
     raise refuse(where, "a type of PLY and a name", quoted(" ".join(words).encode()), REPAIR)
 
 
-def _mesh_file(found: dict[str, dict[str, _Column]], name: str) -> MeshFile:
-    """Pick what a mesh needs from the elements."""
-    vertex = {k: c for k, c in found.get("vertex", {}).items() if c.sizes is None}
+def _mesh_file(elements: dict[str, dict[str, _Column]], name: str) -> MeshFile:
+    """Return the mesh that the elements hold."""
+    vertex = {k: c for k, c in elements.get("vertex", {}).items() if c.sizes is None}
     if not {"x", "y", "z"} <= vertex.keys():
         raise refuse(name, "an element vertex with numbers x, y and z", ", ".join(list(vertex)[:8]) or "none", REPAIR)
 
@@ -234,7 +234,7 @@ def _mesh_file(found: dict[str, dict[str, _Column]], name: str) -> MeshFile:
         return np.stack([vertex[k].values for k in names], axis=1).astype(np.float64)
 
     faces = np.zeros((0, 3), dtype=np.int64)
-    face = found.get("face", {})
+    face = elements.get("face", {})
     column = face.get("vertex_indices", face.get("vertex_index"))
     if column is not None and column.sizes is not None:
         if (column.sizes < 3).any():
@@ -243,7 +243,7 @@ def _mesh_file(found: dict[str, dict[str, _Column]], name: str) -> MeshFile:
             raise refuse(name, "faces with three corners or more", got, REPAIR)
         corners = whole_numbers(column.values.astype(np.float64), f"{name}: faces", "whole vertex numbers")
         faces = corners[fan(column.sizes)]
-    elif face or "tristrips" in found:
+    elif face or "tristrips" in elements:
         raise refuse(name, "the list vertex_indices of the element face", "another", "export plain faces")
     color_names = next((c for c in _COLORS if vertex.keys() >= set(c)), None)
     uv_names = next((c for c in _UV if vertex.keys() >= set(c)), None)

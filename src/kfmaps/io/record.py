@@ -1,4 +1,4 @@
-"""What a mesh file holds, and polygons cut into triangles."""
+"""Records of a mesh file's content, and the triangles of polygons."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from kfmaps.geometry.mesh import Mesh
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture as it lies in a file."""
+    """The content of a picture file."""
 
     data: bytes
     kind: str  # "image/png" or "image/jpeg"
@@ -24,30 +24,29 @@ class Picture:
         return ".png" if self.kind == "image/png" else ".jpg"
 
 
-_MARKS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}  # how the files of each kind begin
+_SIGNATURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}  # first bytes of each kind
 
 
 def picture_in(data: bytes) -> Picture | None:
-    """Return the picture that ``data`` is, told by its first bytes; ``None`` when it is neither PNG nor JPEG."""
-    return next((Picture(data, kind) for mark, kind in _MARKS.items() if data.startswith(mark)), None)
+    """Return ``data`` as a picture, by its first bytes; ``None`` when it is neither PNG nor JPEG."""
+    return next((Picture(data, kind) for first, kind in _SIGNATURES.items() if data.startswith(first)), None)
 
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """A skeleton, and how much each vertex follows each joint."""
+    """A skeleton, and the weight of each joint at each vertex."""
 
     names: tuple[str, ...]  # of the joints
     parents: np.ndarray  # (j,): the joint above each, -1 of roots
-    # (j, 4, 4): from each joint's frame to the mesh's, at rest: the last column is where the joint is.
-    matrices: np.ndarray
-    weights: np.ndarray  # (n, j): each row adds up to 1; 0 throughout for a vertex that follows no joint
+    matrices: np.ndarray  # (j, 4, 4): from each joint's frame to the mesh's, at rest; the last column is its position
+    weights: np.ndarray  # (n, j): each row adds up to 1, or is 0 throughout for a vertex that follows no joint
 
     __repr__ = short_repr
 
 
 @dataclass(frozen=True, eq=False)
 class MeshFile:
-    """A mesh with what else its file says about the vertices.
+    """A mesh with colours, texture, morph targets and skin of its file.
 
     Attributes
     ----------
@@ -60,7 +59,7 @@ class MeshFile:
     uv_faces : (f, 3) int64 or None
         For each corner of each face the row of ``uv``. At a seam one vertex has several.
     picture : Picture or None
-        The one texture of the whole shape, of files that hold it (GLB, glTF) or name it (OBJ).
+        The one texture of the whole shape, where the file holds it (GLB, glTF) or names it (OBJ).
     morphs : dict of str to (n, 3) float64
         Morph targets (shape keys) by name: displacements of the vertices.
     skin : Skin or None
@@ -78,14 +77,14 @@ class MeshFile:
 
     @property
     def corner_uv(self) -> np.ndarray:
-        """Texture coordinates of the corners of each face, (f, 3, 2), of a mesh that has such."""
+        """Texture coordinates of the corners of each face, (f, 3, 2), for a mesh that has any."""
         assert self.uv is not None
         assert self.uv_faces is not None
         return self.uv[self.uv_faces]
 
 
 def fan(sizes: np.ndarray) -> np.ndarray:
-    """Return the triangles that polygons fall into, each polygon a fan around its first corner, in their order.
+    """Return the triangles of polygons, each polygon as a fan around its first corner, in order.
 
     ``sizes (p,)``: how many corners each polygon has, at least 3. Returns (t, 3): positions in the list of all corners,
     one polygon after another.
@@ -96,7 +95,7 @@ def fan(sizes: np.ndarray) -> np.ndarray:
 
 
 def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners of polygons and how many each has, of a list "count, corner, corner, ..." again and again."""
+    """Return the corners of polygons and how many each has, of a flat list "count, corner, corner, ..." per polygon."""
     starts, at = [], 0
     while at < len(flat):
         starts.append(at)
@@ -109,12 +108,12 @@ def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def unit_colors(colors: np.ndarray) -> np.ndarray:
-    """Return colours as files give them, as fractions: divided by 255 when any number is above 1, alpha left out."""
+    """Return the colours of a file as fractions: divided by 255 when any number is above 1, without alpha."""
     return np.clip(colors[:, :3] / (255.0 if colors.max(initial=0.0) > 1 else 1.0), 0.0, 1.0)
 
 
 def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
-    """Return the colours that :func:`kfmaps.write_mesh` takes as (n, 3) float64 from 0 to 1."""
+    """Return colours as :func:`kfmaps.write_mesh` accepts them as (n, 3) float64 from 0 to 1."""
     colors = np.asarray(colors)
     colors = colors[:, :3] if colors.shape[1:] == (4,) else colors
     check(colors, "colors", shape=(n, 3), remedy="give red, green and blue for each vertex")

@@ -37,17 +37,17 @@ def parse_stl(data: bytes, name: str) -> MeshFile:
         places = _text_places(clean_text(data, name, comment=b"\0"), name)
     else:
         got = f"{len(data)} bytes" if count < 0 else f"{len(data)} bytes for {count} triangles"
-        wanted = f"{_HEAD} bytes and {_TRIANGLE.itemsize} per triangle, or text that begins with solid"
-        raise refuse(name, wanted, got, "the file is cut short or is no STL: export it again")
+        expected = f"{_HEAD} bytes and {_TRIANGLE.itemsize} per triangle, or text that begins with solid"
+        raise refuse(name, expected, got, "the file is cut short or is no STL: export it again")
     check(places, f"{name}: vertices", remedy=REPAIR)
     first = unique_vertices(places)
-    kept = np.unique(first)
-    return MeshFile(Mesh(places[kept], np.searchsorted(kept, first).reshape(-1, 3)))
+    distinct = np.unique(first)
+    return MeshFile(Mesh(places[distinct], np.searchsorted(distinct, first).reshape(-1, 3)))
 
 
 def _text_places(text: bytes, name: str) -> np.ndarray:
-    """The three positions of each triangle, (3 t, 3)."""
-    # Lines, because one pattern for all solids tries every way to cut a file into them.
+    """Return the three positions of each triangle, (3 t, 3)."""
+    # Line by line: one pattern for all solids would try every way to split the file into them.
     rest = [line for line in _FACET.sub(b"", text).split(b"\n") if not line.isspace() and line]
     paired = len(rest) % 2 == 0 and all(map(_SOLID.match, rest[::2])) and all(map(_END.match, rest[1::2]))
     if not (rest and paired):

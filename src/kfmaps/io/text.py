@@ -1,4 +1,4 @@
-"""Strict, vectorised reading of text files full of numbers, and what all readers share."""
+"""Read text files of numbers strictly and fast; functions that all readers share."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Rows:
 
 
 def check_suffix(path: str | Path, formats: Iterable[str], what: str = "", remedy: str = "rename it") -> str:
-    """Return the extension of ``path``, in lower case, where it is one of ``formats``; ``what`` the file is."""
+    """Return the extension of ``path`` in lower case where it is one of ``formats``; ``what``: the file in messages."""
     suffix = Path(path).suffix.lower()
     if suffix not in formats:
         raise refuse(f"{what} {path}".strip(), f"one of {' '.join(formats)}", suffix or "no extension", remedy)
@@ -89,19 +89,19 @@ def read_table(path: str | Path) -> list[dict[str, str]]:
 
 
 @contextmanager
-def complete_or_refuse(name: str, wanted: str) -> Iterator[None]:
-    """Refuse, with what was ``wanted``, a file whose wrong structure makes its reader fail in whatever way."""
+def complete_or_refuse(name: str, expected: str) -> Iterator[None]:
+    """Turn any error in the block, which reads the file ``name``, into a refusal that says what was ``expected``."""
     try:
         yield
     except (InvalidInput, MemoryError):
         raise
     except Exception as error:
         got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
-        raise refuse(name, wanted, got, REPAIR) from error
+        raise refuse(name, expected, got, REPAIR) from error
 
 
 def beside(address: str, name: str) -> Path | None:
-    """Return the file that a relative address in the file ``name`` means; ``None`` outside the folder of ``name``."""
+    """Return the file of a relative address in the file ``name``; ``None`` where it lies outside the folder."""
     path = PurePosixPath(address)
     outside = not path.parts or path.is_absolute() or ".." in path.parts or ":" in path.parts[0]
     return None if outside or "\\" in address or "\0" in address else Path(name).parent / path
@@ -123,7 +123,7 @@ def clean_text(data: bytes, name: str, comment: bytes = b"#") -> bytes:
 
 
 def _bad_number(text: bytes, name: str, numbers: np.ndarray | None) -> Exception:
-    """The complaint about the first word of ``text`` that is no number."""
+    """Return the error about the first word of ``text`` that is no number."""
     for i, line in enumerate(text.split(b"\n")):
         for word in line.split():
             if not is_number(word.decode("latin-1")):
@@ -148,10 +148,9 @@ def split_words(text: bytes | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -> Rows:
-    """Read a text that holds nothing but numbers between blanks.
+    """Read a text from :func:`clean_text` that holds nothing but numbers between blanks.
 
-    ``text``: from :func:`clean_text`; ``name``: how messages call it; ``line_numbers (lines,)``: the number in the file
-    of each line of ``text``, where they are not 1, 2, 3, ....
+    ``name``: of the text in messages; ``line_numbers (lines,)``: of each line in the file, by default 1, 2, ....
     """
     at, line_of_word = split_words(text)
     per_line = np.bincount(line_of_word)
@@ -169,27 +168,27 @@ def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -
     return Rows(values, counts, np.cumsum(counts) - counts, numbers)
 
 
-def check_lines(bad: np.ndarray, lines: np.ndarray, name: str, wanted: str, got: Callable[[int], str]) -> None:
-    """Refuse the first of the ``lines (r,)`` of a file that is ``bad (r,)``; ``got`` says what is in row ``i``."""
+def check_lines(bad: np.ndarray, lines: np.ndarray, name: str, expected: str, got: Callable[[int], str]) -> None:
+    """Refuse the first of the ``lines (r,)`` where ``bad (r,)`` is true; ``got``: what line ``i`` has, in words."""
     if bad.any():
         i = int(np.argmax(bad))
-        raise refuse(f"{name}, line {lines[i]}", wanted, got(i), REPAIR)
+        raise refuse(f"{name}, line {lines[i]}", expected, got(i), REPAIR)
 
 
-def whole_numbers(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.ndarray:
+def whole_numbers(values: np.ndarray, name: str, expected: str = "whole numbers") -> np.ndarray:
     """Return ``values`` as int64."""
     bad = ~((np.abs(values) < 2**53) & (values == np.rint(values)))
     if bad.any():
-        raise refuse(name, wanted, f"{values[bad][0]:.6g}", REPAIR)
+        raise refuse(name, expected, f"{values[bad][0]:.6g}", REPAIR)
     return values.astype(np.int64)
 
 
-def as_table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) -> np.ndarray:
-    """Return the numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns)."""
+def as_table(rows: Rows, columns: int | tuple[int, ...], name: str, expected: str) -> np.ndarray:
+    """Return the numbers of ``rows`` as (rows, columns); all rows must have the same length, one of ``columns``."""
     if len(rows) == 0:
         return np.zeros((0, columns if isinstance(columns, int) else columns[0]))
     allowed = (columns,) if isinstance(columns, int) else columns
     width = int(rows.counts[0]) if rows.counts[0] in allowed else allowed[0]
-    check_lines(rows.counts != width, rows.lines, name, wanted, lambda i: f"{rows.counts[i]} numbers")
+    check_lines(rows.counts != width, rows.lines, name, expected, lambda i: f"{rows.counts[i]} numbers")
     first = int(rows.starts[0])
     return rows.values[first : first + width * len(rows)].reshape(len(rows), width)

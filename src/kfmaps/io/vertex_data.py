@@ -1,4 +1,4 @@
-"""Per-vertex values in files: functions and labels."""
+"""Read and write values of vertices: functions and labels."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from kfmaps.io.text import (
 )
 
 _FORMATS, _RENAME = (".npy", ".csv", ".txt"), "convert or rename it"
-_MOST_LETTERS = 1 << 26
-"""Letters of all labels together when each takes the room of the longest, four bytes a letter: a quarter of a GiB."""
+_MAX_LETTERS = 1 << 26
+"""Most labels times letters of the longest: each takes as much memory, in all a quarter of a GiB."""
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 
 
 @dataclass(frozen=True, eq=False)
 class Values:
-    """Something known at each vertex.
+    """A value or a row of values for each vertex.
 
     Attributes
     ----------
     array : (n,) or (n, d) array
-        int64 (or uint64) when all are whole numbers, float64 when they are numbers, else texts (labels). Whole
-        numbers whose digits neither would keep are texts.
+        int64 (or uint64) when all are whole numbers, float64 when they are numbers, else texts (labels). Whole numbers
+        too large for these types are texts.
     columns : tuple of str or None
         The header of a ``.csv`` file that has one.
     """
@@ -66,8 +66,8 @@ def read_values(path: str | Path) -> Values:
         return Values(_npy(read_bytes(path), str(path)))
     if suffix == ".csv":
         table = read_csv(path)
-        titled = len(table) > 1 and not any(map(is_number, table[0][1])) and all(map(is_number, table[1][1]))
-        return Values(_table(table[titled:], str(path)), tuple(table[0][1]) if titled else None)
+        has_titles = len(table) > 1 and not any(map(is_number, table[0][1])) and all(map(is_number, table[1][1]))
+        return Values(_table(table[has_titles:], str(path)), tuple(table[0][1]) if has_titles else None)
     lines = [(i, line.strip()) for i, line in enumerate(read_text(path).splitlines(), 1)]
     lines = [(i, line) for i, line in lines if line and not line.startswith("#")]
     rows = [(i, line.split()) for i, line in lines]
@@ -77,33 +77,33 @@ def read_values(path: str | Path) -> Values:
 
 
 def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
-    """The cells as an array (rows, columns), or (rows,), of numbers, or of texts when no row is all numbers."""
+    """Return the cells as an array (rows, columns), or (rows,), of numbers, or of texts when no row is all numbers."""
     if not rows:
         raise refuse(name, "a row for each source vertex", "none", "check that it is the right file")
     at, cells = np.array([line for line, _ in rows]), [row for _, row in rows]
     width, widths = len(cells[0]), np.array(list(map(len, cells)))
     check_lines(widths != width, at, name, f"{width} values as before", lambda i: str(widths[i]))
-    numeric = np.array([all(map(is_number, row)) for row in cells])
-    wanted, got = ("numbers", "text") if numeric[0] else ("text", "numbers")
-    check_lines(numeric != numeric[0], at, name, f"{wanted} as before", lambda _: got)
+    is_numeric = np.array([all(map(is_number, row)) for row in cells])
+    expected, got = ("numbers", "text") if is_numeric[0] else ("text", "numbers")
+    check_lines(is_numeric != is_numeric[0], at, name, f"{expected} as before", lambda _: got)
     flat = [cell for row in cells for cell in row]
-    texts, kind = _texts(flat, name), _kind(flat) if numeric[0] else None
+    texts, kind = _texts(flat, name), _kind(flat) if is_numeric[0] else None
     texts = texts if width == 1 else texts.reshape(len(cells), width)
     with np.errstate(over="ignore"):  # 1e999 is infinity
         return texts if kind is None else texts.astype(kind)
 
 
 def _texts(cells: list[str], name: str) -> np.ndarray:
-    """``cells`` as an array of texts; each takes as much memory as the longest."""
+    """Return ``cells`` as an array of texts; each takes as much memory as the longest."""
     longest = max(cells, key=len)
-    if len(longest) * len(cells) > _MOST_LETTERS:
-        wanted = f"labels of at most {_MOST_LETTERS // len(cells):,} letters each, for there are {len(cells):,}"
-        raise refuse(name, wanted, f"one of {len(longest):,} letters ({longest[:24]!r}...)", "shorten it")
+    if len(longest) * len(cells) > _MAX_LETTERS:
+        expected = f"labels of at most {_MAX_LETTERS // len(cells):,} letters each, for there are {len(cells):,}"
+        raise refuse(name, expected, f"one of {len(longest):,} letters ({longest[:24]!r}...)", "shorten it")
     return np.array(cells)
 
 
 def _kind(cells: list[str]) -> type | None:
-    """The type that keeps every digit of whole numbers; ``None`` where none does, and they must stay texts."""
+    """Return the type that keeps every digit of whole numbers; ``None`` where only texts do."""
     whole = [cell for cell in cells if _WHOLE.fullmatch(cell)]
     if max(map(len, whole), default=0) > 400:  # more digits than any float, and than Python reads
         return None

@@ -1,4 +1,4 @@
-"""VTK's polygonal data, legacy (``.vtk``) and XML (``.vtp``): points and polygons; all else is left out."""
+"""Read points and polygons of VTK's polygonal data, legacy (``.vtk``) and XML (``.vtp``)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def parse_vtk(data: bytes, name: str) -> MeshFile:
 
 
 class _Legacy:
-    """The content of a legacy file, and the place ``at`` that it is read up to."""
+    """The content of a legacy file, and the position ``at`` up to which it has been read."""
 
     def __init__(self, data: bytes, name: str, at: int, binary: bool) -> None:
         self.data, self.name, self.at, self.binary = data, name, at, binary
@@ -49,7 +49,7 @@ class _Legacy:
         return []
 
     def _up_to(self, mark: bytes) -> bytes:
-        """The bytes before the next ``mark`` or the end, which are passed with it."""
+        """Return the bytes before the next ``mark`` or the end, and go on behind the mark."""
         end = self.data.find(mark, self.at)
         start, end = self.at, len(self.data) if end < 0 else end
         self.at = end + len(mark)
@@ -69,7 +69,7 @@ class _Legacy:
         return np.array([word[0] for word in words], dtype="S").astype(np.float64)
 
     def cells(self, words: list[str]) -> tuple[np.ndarray, np.ndarray]:
-        """Return the corners of cells and how many each has; version 5 has their ends instead."""
+        """Return the corners of cells and how many each has; version 5 stores offsets instead of counts."""
         count, size, start = int(words[1]), int(words[2]), self.at
         following = self.line()
         if following[:1] == ["OFFSETS"]:
@@ -79,7 +79,7 @@ class _Legacy:
         return split_polygons(self.numbers(size, "int"))
 
     def field(self, count: int) -> None:
-        """Pass over ``count`` arrays that say something of the whole."""
+        """Skip ``count`` arrays of data of the whole file."""
         for _ in range(count):
             _, width, length, kind = self.line()
             size = int(width) * int(length)
@@ -118,11 +118,11 @@ class _Legacy:
 
 def parse_vtp(data: bytes, name: str) -> MeshFile:
     """Read an XML file (https://docs.vtk.org, "XML File Formats"): text, base64 or appended arrays, plain or zlib."""
-    head, mark, rest = data.partition(b"<AppendedData")
+    head, separator, rest = data.partition(b"<AppendedData")
     if b"<!" in head.replace(b"<!--", b""):
         raise refuse(name, "XML without declarations of its own", "one", REMEDY)
     appended, raw = b"", False
-    if mark:
+    if separator:
         opening, _, body = rest.partition(b">")
         raw = b"raw" in opening
         appended = body[body.index(b"_") + 1 :]
@@ -134,18 +134,18 @@ def parse_vtp(data: bytes, name: str) -> MeshFile:
         raise refuse(name, "arrays that are plain or compressed by zlib", str(root.get("compressor")), REMEDY)
 
     def array(piece: ElementTree.Element, path: str) -> np.ndarray:
-        found = piece.find(path)
-        if found is None:
+        element = piece.find(path)
+        if element is None:
             return np.zeros(0)
-        if found.get("format", "ascii") == "ascii":
-            return np.array((found.text or "").split(), dtype=np.float64)
-        block = appended[int(found.get("offset", 0)) :] if found.get("format") == "appended" else b""
-        block = block or (found.text or "").strip().encode("ascii")
+        if element.get("format", "ascii") == "ascii":
+            return np.array((element.text or "").split(), dtype=np.float64)
+        block = appended[int(element.get("offset", 0)) :] if element.get("format") == "appended" else b""
+        block = block or (element.text or "").strip().encode("ascii")
         order = ">" if root.get("byte_order") == "BigEndian" else "<"
         size = np.dtype(order + TYPES[root.get("header_type", "UInt32")])
-        plain = raw and found.get("format") == "appended"
-        content = _unpacked(block, size, plain, root.get("compressor") is not None, name)
-        return np.frombuffer(content, order + TYPES[found.get("type", "")])
+        is_raw = raw and element.get("format") == "appended"
+        content = _unpacked(block, size, is_raw, root.get("compressor") is not None, name)
+        return np.frombuffer(content, order + TYPES[element.get("type", "")])
 
     points, corners, sizes, count = [], [], [], 0
     for piece in root.iterfind("PolyData/Piece"):
@@ -161,20 +161,20 @@ def parse_vtp(data: bytes, name: str) -> MeshFile:
     return _mesh(np.concatenate(points), np.concatenate(corners), np.concatenate(sizes), name)
 
 
-def _unpacked(block: bytes, size: np.dtype, raw: bool, packed: bool, name: str) -> bytes:
-    """The bytes of an array: a head of ``size`` numbers and the content, in base64 unless ``raw``."""
+def _unpacked(block: bytes, size: np.dtype, is_raw: bool, is_compressed: bool, name: str) -> bytes:
+    """Return the bytes of an array: a head of ``size`` numbers and the content, in base64 unless ``is_raw``."""
     width = size.itemsize
 
     def take(first: int, count: int) -> tuple[bytes, int]:
-        """``count`` bytes of what begins at ``first`` and is encoded by itself, and where that ends."""
-        end = first + (count if raw else 4 * -(-count // 3))
-        return (block[first:end] if raw else base64.b64decode(block[first:end])[:count]), end
+        """Return ``count`` bytes of the separately encoded part that begins at ``first``, and where it ends."""
+        end = first + (count if is_raw else 4 * -(-count // 3))
+        return (block[first:end] if is_raw else base64.b64decode(block[first:end])[:count]), end
 
     def numbers(count: int) -> tuple[list[int], int]:
         content, end = take(0, count * width)
         return np.frombuffer(content, size).astype(np.int64).tolist(), end
 
-    if not packed:
+    if not is_compressed:
         return take(0, width + numbers(1)[0][0])[0][width:]
     n_blocks, full, last = numbers(3)[0]
     head, end = numbers(3 + n_blocks)

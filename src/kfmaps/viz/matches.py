@@ -72,7 +72,7 @@ def match_figure(
         When the map or the errors do not have one entry per target vertex, or the map leaves the source.
     """
     sizes = len(source.vertices), len(target.vertices)
-    carried = check_map(target_to_source, *sizes, "target_to_source", lost=True)
+    carried = check_map(target_to_source, *sizes, "target_to_source", partial=True)
     colors = position_colors(source) if colors is None else colors
     view_s = automatic_view(source) if view is None else view
     view_t = following_view(view_s, source, target, carried) if target_view is None else target_view
@@ -223,7 +223,7 @@ def grid_figure(
     cells = [(label, source, colors, view)]
     for item in panels:
         sizes = len(source.vertices), len(item.mesh.vertices)
-        points = check_map(item.target_to_source, *sizes, f"map to {item.label}", lost=True)
+        points = check_map(item.target_to_source, *sizes, f"map to {item.label}", partial=True)
         seen = following_view(view, source, item.mesh, points)
         cells.append((item.label, item.mesh, transfer(colors, item.target_to_source, source.faces, LOST_GREY), seen))
 

@@ -216,7 +216,7 @@ class PickerServer:
         source, target = self.source, self.target
         assert self.matcher is not None
         found = self.matcher(pairs, progress)
-        points = check_map(found, len(source.vertices), len(target.vertices), lost=True)
+        points = check_map(found, len(source.vertices), len(target.vertices), partial=True)
         self._maps.append(found)
         label = plural(len(pairs), "landmark")
         confidence = encode_floats(local_confidence(source, target, points))

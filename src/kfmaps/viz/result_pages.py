@@ -98,7 +98,7 @@ def match_page(
     file = source if isinstance(source, MeshFile) else MeshFile(source)
     mesh, matrix = file.mesh, getattr(match, "functional_map", None)
     sizes = len(mesh.vertices), len(target.vertices)
-    maps = [check_map(match, *sizes, lost=True)]
+    maps = [check_map(match, *sizes, partial=True)]
     maps += [check_map(other, *sizes, f"alternative {i}") for i, other in enumerate(match.alternatives, 1)]
     labels = ["Best map", *(f"Alternative {i}" for i in range(1, len(maps)))]
     colors, overlap = position_colors(mesh), match.partial.overlap_source

@@ -58,7 +58,7 @@ def evaluate(
     shape = map_mesh(source, found, "source", map)
     if truth_part is not None:
         other = map_mesh(target, found, "target", map)
-        check_map(found, len(shape.vertices), len(other.vertices), str(map), lost=True)
+        check_map(found, len(shape.vertices), len(other.vertices), str(map), partial=True)
         whole, piece = (shape, other) if part == "target" else (other, shape)
         accuracy = part_accuracy(shape, other, found, read_part_truth(truth_part, whole, piece), part)
     else:
@@ -66,7 +66,7 @@ def evaluate(
         known = known_truth(truth, *sizes, symmetric=symmetric, identity=identity)
         assert known is not None
         other = _target(target, found, map)
-        check_map(found, len(shape.vertices), None if other is None else len(other.vertices), str(map), lost=True)
+        check_map(found, len(shape.vertices), None if other is None else len(other.vertices), str(map), partial=True)
         accuracy = assess(shape, found.target_to_source, known, place=precise_points(found, shape), target=other)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)

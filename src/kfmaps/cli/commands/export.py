@@ -68,7 +68,7 @@ def export(
         for given, side in ((source, "source"), (target, "target"))
     )
     n_s, n_t = (None if one is None else len(one.mesh.vertices) for one in (shape_s, shape_t))
-    check_map(found, n_s, n_t, lost=True)
+    check_map(found, n_s, n_t, partial=True)
     if functional:
         if not hasattr(found, "functional_map"):
             raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")

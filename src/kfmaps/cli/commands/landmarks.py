@@ -168,12 +168,7 @@ def transfer(
     with RunReport(quiet or json) as report:
         report.say(describe_plan(plan))
         outcome = run_batch(
-            plan,
-            workers=processes,
-            name=scans.resolve().name,
-            worst=0,
-            callback=report.status,
-            progress=report.stage,
+            plan, workers=processes, name=scans.resolve().name, worst=0, callback=report.status, progress=report.stage
         )
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)

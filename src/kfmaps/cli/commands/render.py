@@ -107,7 +107,7 @@ def render_grid(
         if centre is None:
             centre = map_mesh(None, found, "source", path)
         mesh = map_mesh(None, found, "target", path)
-        check_map(found, len(centre.vertices), len(mesh.vertices), str(path), lost=True)
+        check_map(found, len(centre.vertices), len(mesh.vertices), str(path), partial=True)
         told = errors and result.error_mean is not None
         panels.append(
             Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, found)
