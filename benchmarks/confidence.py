@@ -39,7 +39,7 @@ def measures(result: kfmaps.Match, source: kfmaps.Shape, target: kfmaps.Shape) -
     k_t, k_s = result.functional_map.shape
     images = source.basis.functions[:, :k_s] @ result.functional_map.T
     own = target.basis.functions[:, :k_t]
-    back = nearest(images, own, threads=1)[result.target_to_source]
+    back = nearest(images, own)[result.target_to_source]
     places = target.mesh.vertices
     apart = np.linalg.norm(own - images[result.target_to_source], axis=1) / np.linalg.norm(own, axis=1)
     return {

@@ -25,7 +25,7 @@ from scipy.sparse import diags_array
 from scipy.sparse.linalg import eigsh
 from shapes import bumpy_sphere
 
-from kfmaps._threads import available_cores, one_blas_thread
+from kfmaps._threads import available_cores, limit_threads, one_blas_thread
 from kfmaps.geometry.eigen import factorization
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 
@@ -43,7 +43,8 @@ def own(ordering: str, threads: int) -> Callable[[Any, np.ndarray, int], np.ndar
     def solve(stiffness: Any, mass: np.ndarray, k: int) -> np.ndarray:
         if ordering == "mmd":  # SuperLU's own, as where METIS is not installed; each row has a process of its own
             factorization.find_spec = lambda _name, _package=None: None
-        return smallest_eigenpairs(stiffness, mass, k, threads=threads).values
+        with limit_threads(threads):
+            return smallest_eigenpairs(stiffness, mass, k).values
 
     return solve
 

@@ -131,7 +131,7 @@ class Task:
     def raw_error(self, C: np.ndarray) -> float:
         k_t, k_s = C.shape
         rows = self.target.basis.functions[self.judged, :k_t]
-        return self.error(nearest(rows, self.source.basis.functions[:, :k_s] @ C.T, threads=1))
+        return self.error(nearest(rows, self.source.basis.functions[:, :k_s] @ C.T))
 
 
 def task_of(data: Data, a: str, b: str) -> Task | None:

@@ -33,8 +33,8 @@ def line(name: str, source: Mesh, target: Mesh) -> None:
     state = search_map(*shapes, replace(config, search=replace(config.search, orientation="preserving")))._search
     assert state is not None
     other = mirrored_pair(state.samples.whole)
-    images = reversed_best(state.found, other, config.threads)
-    best = ranking(images, other, ProxyCache.of(*shapes, other), config.threads)[0]
+    images = reversed_best(state.found, other)
+    best = ranking(images, other, ProxyCache.of(*shapes, other))[0]
     gain = best.score - state.ranked[0].score
     print(f"{name:40} {found.orientation:10} {found.verdict:9} {found.confidence:5.2f} {gain:+7.2f}", flush=True)
 

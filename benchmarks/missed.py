@@ -36,7 +36,7 @@ def judge(job: Job, source: kfmaps.Shape, target: kfmaps.Shape) -> Callable[[np.
     def error(C: np.ndarray) -> float:
         k_t, k_s = C.shape
         rows = np.ascontiguousarray(target.basis.functions[true_t[some], :k_t])
-        points = nearest(rows, source.basis.functions[:, :k_s] @ C.T, threads=1)
+        points = nearest(rows, source.basis.functions[:, :k_s] @ C.T)
         return 100 * float(away[np.arange(len(some)), points].mean())
 
     return error

@@ -751,8 +751,8 @@ MUTANTS = tuple(
             "test_registration_evidence -k squared",
         ),
         (
-            "return score_maps(found, samples.whole, config.threads)",
-            "return score_maps([], samples.whole, config.threads)",
+            "return score_maps(found, samples.whole)",
+            "return score_maps([], samples.whole)",
             "test_registration_evidence -k without_landmarks",
         ),
         (
@@ -907,8 +907,8 @@ MUTANTS = tuple(
             "test_landmark_evidence -k takes",
         ),
         (
-            "replace(samples, landmark_cost=None), threads)[0]",
-            "samples, threads)[0]",
+            "replace(samples, landmark_cost=None))[0]",
+            "samples)[0]",
             "test_landmark_evidence -k not_led",
         ),
         (

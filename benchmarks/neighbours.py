@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from shapes import Pair, bumpy_pair, read_pairs
 
-from kfmaps._threads import one_blas_thread
+from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.nearest import nearest
@@ -65,12 +65,14 @@ def measure(pair: Pair) -> list[dict[str, float | str]]:
         some = np.random.default_rng(0).choice(len(queries), 4000, replace=False)
         known = np.flatnonzero(pair.target_to_source[some] >= 0)[:1000]
         start = time.process_time()
-        exact = nearest(queries[some], points, threads=1, exact=True)
+        with limit_threads(1):
+            exact = nearest(queries[some], points, exact=True)
         best = np.linalg.norm(queries[some] - points[exact], axis=1)
         answers = [("exact", (time.process_time() - start) * len(queries) / len(some), exact)]
         for probes in (4, 8, 16, 32):
             start = time.process_time()
-            answer = approximate_nearest(queries, points, probes=probes, threads=1)
+            with limit_threads(1):
+                answer = approximate_nearest(queries, points, probes=probes)
             answers.append((f"{probes} cells", time.process_time() - start, answer[some]))
         for search, spent, answer in answers:
             excess = np.linalg.norm(queries[some] - points[answer], axis=1) / np.maximum(best, 1e-300) - 1

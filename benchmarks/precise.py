@@ -31,6 +31,7 @@ from automatic import mesh_file, read
 import kfmaps
 from kfmaps import datasets
 from kfmaps._progress import StageTimer
+from kfmaps._threads import limit_threads
 from kfmaps.fmap.evaluate import precise_errors, smoothness
 from kfmaps.fmap.precise import PointMap, nearest_surface_points, point_positions
 from kfmaps.geometry.closest_points import closest_points
@@ -181,7 +182,8 @@ def growth(sizes: list[int]) -> None:
             else:
                 angles = (true @ waves, source.vertices @ waves)
                 queries, points = (np.hstack([np.cos(a), np.sin(a)]) for a in angles)
-                found = nearest_surface_points(queries, points, source.faces, threads=1)
+                with limit_threads(1):
+                    found = nearest_surface_points(queries, points, source.faces)
             seconds.append(time.process_time() - start)
             error = np.linalg.norm(point_positions(PointMap(found.faces, found.weights), source) - true, axis=1)
             print(

@@ -88,7 +88,7 @@ def candidate(found: SearchResult, of: Judged) -> np.ndarray:
     """The source vertices of the true target vertices by the map that a search has found."""
     k_t, k_s = found.functional_map.shape
     rows = np.ascontiguousarray(of.target.basis.functions[of.true_t, :k_t])
-    return nearest(rows, of.source.basis.functions[:, :k_s] @ found.functional_map.T, threads=1)
+    return nearest(rows, of.source.basis.functions[:, :k_s] @ found.functional_map.T)
 
 
 def registered(found: SearchResult) -> SearchResult:

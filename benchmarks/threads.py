@@ -11,7 +11,6 @@ import argparse
 import json
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,7 @@ import numpy as np
 import robust_laplacian
 from shapes import bumpy_pair, bumpy_sphere
 
-from kfmaps._threads import one_blas_thread
+from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
@@ -28,22 +27,19 @@ from kfmaps.matching.match import match
 K = 200
 
 
-def tasks(large: int) -> dict[str, Callable[[int], Any]]:
-    """What is measured; each takes the number of threads."""
+def tasks(large: int) -> dict[str, Callable[[], Any]]:
+    """Return what is measured, by its name."""
     pair, sphere = bumpy_pair(5000), bumpy_sphere(large)
     stiffness, area = robust_laplacian.mesh_laplacian(sphere.vertices, sphere.faces)
     functions = smallest_eigenpairs(stiffness, area.diagonal(), K).vectors
     moved = functions + 0.3 * np.random.default_rng(0).normal(size=(1, K))
     with_landmarks, without = Config.single_fit(), Config()
 
-    def matched(config: Config, threads: int, landmarks: np.ndarray | None) -> Any:
-        return match(pair.source, pair.target, replace(config, threads=threads), landmarks=landmarks)
-
     return {
-        "match, 5000, landmarks": lambda t: matched(with_landmarks, t, pair.landmarks),
-        "match, 5000, none": lambda t: matched(without, t, None),
-        f"eigenproblem, {large}": lambda t: smallest_eigenpairs(stiffness, area.diagonal(), K, threads=t),
-        f"point map, {large}": lambda t: approximate_nearest(functions, moved, threads=t),
+        "match, 5000, landmarks": lambda: match(pair.source, pair.target, with_landmarks, landmarks=pair.landmarks),
+        "match, 5000, none": lambda: match(pair.source, pair.target, without),
+        f"eigenproblem, {large}": lambda: smallest_eigenpairs(stiffness, area.diagonal(), K),
+        f"point map, {large}": lambda: approximate_nearest(functions, moved),
     }
 
 
@@ -61,8 +57,8 @@ def main() -> None:
         for _ in range(options.repeats):
             for threads in options.threads:
                 wall, work = time.perf_counter(), time.process_time()
-                with one_blas_thread():
-                    task(threads)
+                with limit_threads(threads), one_blas_thread():
+                    task()
                 spent = time.perf_counter() - wall, time.process_time() - work
                 best[threads] = min(best.get(threads, spent), spent)
         first = best[options.threads[0]][0]

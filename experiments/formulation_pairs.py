@@ -94,12 +94,12 @@ class Pair:
 
     def error(self, C: np.ndarray) -> float:
         """Return the mean error of the known target vertices."""
-        points = to_points(C, self.source.basis, _rows(self.target.basis, self.known_t), threads=1)
+        points = to_points(C, self.source.basis, _rows(self.target.basis, self.known_t))
         return float(self.distances[np.arange(len(points)), points].mean())
 
     def refine(self, C: np.ndarray) -> np.ndarray:
         """Return the functional map after ZoomOut on samples."""
-        return to_numpy(ZOOM(C, *self.samples, threads=1).functional_map)
+        return to_numpy(ZOOM(C, *self.samples).functional_map)
 
     def refine_both(self, C: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the functional maps of both directions after bidirectional ZoomOut on samples."""
@@ -194,8 +194,8 @@ def cycle(C: np.ndarray, D: np.ndarray, pair: Pair) -> dict[str, float]:
 
     The cycle error is the distance of known source vertices from where ``D`` and then ``C`` send them.
     """
-    points = to_points(C, pair.source.basis, pair.target.basis, threads=1)
-    image = to_points(D, pair.target.basis, _rows(pair.source.basis, pair.known_s), threads=1)
+    points = to_points(C, pair.source.basis, pair.target.basis)
+    image = to_points(D, pair.target.basis, _rows(pair.source.basis, pair.known_s))
     each, mass = np.arange(len(pair.known_s)), pair.source.basis.mass
     return {
         "error": float(pair.distances[each, points[pair.known_t]].mean()),

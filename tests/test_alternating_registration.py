@@ -72,7 +72,7 @@ def ended(C, on, led) -> alternate.AlternatingResult:
 def points_of(C, source, target):
     k_t, k_s = C.shape
     images = source.basis.functions[:, :k_s] @ C.T
-    return nearest(np.ascontiguousarray(target.basis.functions[:, :k_t]), images, threads=1)
+    return nearest(np.ascontiguousarray(target.basis.functions[:, :k_t]), images)
 
 
 def error(C, source, target, truth):
@@ -165,7 +165,7 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     told = []
     refine_by_registration(
@@ -173,7 +173,6 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
         on,
         ProxyCache.of(source, target, on),
         np.zeros((0, 2), dtype=np.int64),
-        1,
         lambda *what: told.append(what),
     )
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
@@ -185,7 +184,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     calls, apart = [], []
 
     def made(C, on, led, _landmarks):
@@ -196,7 +195,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
 
     def end():
         found, retries = refine_by_registration(
-            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1
+            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64)
         )
         assert len(found) == 1
         return found[0], retries
@@ -226,7 +225,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     (best, *others) = match_extremities(on.source, on.target, on.descriptor_cost)
     mirror = next(one for one in others if one.contradicts(best))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
@@ -247,7 +246,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "vertices_of_match", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
+    found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)
     names = {c.name for c in found}
     assert isinstance(other, Candidate)
     assert {found[0].name, other.name} == names
@@ -257,7 +256,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
     assert f"{mirror}" not in {
-        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)[0]
+        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)[0]
     }
     assert len(calls) == 5
 
@@ -268,7 +267,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
-    good, bad = score_maps([Start("matched", C), Start("before", turned)], on, 1)
+    good, bad = score_maps([Start("matched", C), Start("before", turned)], on)
 
     def made(C, where, *_rest):
         yield alternate.AlternatingResult(C, where.source.mesh.vertices)
@@ -281,7 +280,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
     monkeypatch.setattr(mending, "_begin", lambda near, _samples: [*((c, None) for c in near), (good, None)])
     ranked = [replace(bad, deformation_energy=1.0)]
     none = np.zeros((0, 2), dtype=np.int64)
-    found, _ = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), none, 1)
+    found, _ = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), none)
     assert [c.name for c in found] == ["matched", "before"]
 
 
@@ -291,7 +290,7 @@ def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
-    good, bad = score_maps([Start("", C), Start("", turned)], on, 1)
+    good, bad = score_maps([Start("", C), Start("", turned)], on)
     gap, rounds = good.quality.score - bad.quality.score, []
 
     def made(C, where, *_rest):
@@ -306,9 +305,9 @@ def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
         rounds.clear()
         monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=lag, repairable_margin=np.inf))
         ranked = [replace(c, name=f"{i}", deformation_energy=1.0) for i, c in enumerate(begun)]
-        return refine_by_registration(
-            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1
-        )[0]
+        return refine_by_registration(ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64))[
+            0
+        ]
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
@@ -352,14 +351,14 @@ def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     astray = alternate.AlternatingResult(
         np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices
     )
     monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: iter([astray]))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    (found,), retries = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
+    (found,), retries = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere)
     assert found.functional_map is ranked[0].functional_map
     assert found.registered_vertices is None
     (way,) = retries
@@ -378,7 +377,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("rough", rough)], on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("rough", rough)], on)]
     astray = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
 
     def made(_C, where, *_rest):
@@ -387,7 +386,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)[0]
+    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere)[0]
     np.testing.assert_array_equal(found.functional_map, C)
     assert not found.swapped
     assert found.registered_vertices is source.mesh.vertices
@@ -428,11 +427,11 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     torn[high] = np.random.default_rng(0).permutation(torn[high])
     bases = source.basis.truncate(40), target.basis.truncate(40)
     maps = [np.asarray(to_functional(points, *bases)) for points in (torn, truth)]
-    bad, good = score_maps([Start("torn", maps[0]), Start("truth", maps[1])], on, 1)
+    bad, good = score_maps([Start("torn", maps[0]), Start("truth", maps[1])], on)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
     of = ProxyCache.of(source, target, on)
-    ranked = ranking.ranking([bad], on, of, 1)
+    ranked = ranking.ranking([bad], on, of)
     found = rerank_near_duplicates(ranked, [bad, good], on, of, 1)
     assert [c.name for c in found] == ["truth", "torn"]
     assert found[1] is ranked[0]
@@ -461,7 +460,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target)))
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    best = score_maps([Start("best", C)], on.whole, 1)[0]
+    best = score_maps([Start("best", C)], on.whole)[0]
     few = np.where(np.arange(len(best.points)) < len(best.points) // 20, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())

@@ -92,7 +92,7 @@ def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
     torn = places * np.where(places[:, :1] > 0, 1.0, -1.0) ** np.array([0, 1, 1])
     C = shape.basis.truncate(60).project(shape.basis.functions[:, :60])
     whole = map_quality(C, judge, judge)
-    flipped = nearest(places, torn, threads=1)
+    flipped = nearest(places, torn)
     phi = judge.samples.basis.functions[:, :60]
     broken = map_quality(np.linalg.lstsq(phi, phi[flipped], rcond=None)[0], judge, judge)
     assert broken.local_distortion > whole.local_distortion + 0.1

@@ -30,13 +30,13 @@ def symmetric():
 
 
 def run(C, basis, weight, led):
-    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, threads=1, guide=led).functional_map
+    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, guide=led).functional_map
 
 
 def test_without_weight_or_guide_it_is_plain_zoomout(symmetric):
     basis, places = symmetric
     start = np.diag([1.0, 1, -1, 1, 1, -1])
-    plain = ZoomOut(6, 40, 4)(start, basis, basis, threads=1).functional_map
+    plain = ZoomOut(6, 40, 4)(start, basis, basis).functional_map
     np.testing.assert_array_equal(run(start, basis, 0.0, descriptor_guidance(places, places)), plain)
     np.testing.assert_array_equal(run(start, basis, 12.0, None), plain)
     assert np.abs(run(start, basis, 12.0, descriptor_guidance(places, places)) - plain).max() > 0.1
@@ -48,7 +48,7 @@ def test_descriptors_lead_from_the_wrong_signs_to_the_right_map(symmetric):
 
     def error(C):
         phi = basis.functions[:, :40]
-        return np.linalg.norm(places[nearest(phi, phi @ C.T, threads=1)] - places, axis=1).mean()
+        return np.linalg.norm(places[nearest(phi, phi @ C.T)] - places, axis=1).mean()
 
     assert error(run(wrong, basis, 0.0, None)) > 0.2
     assert error(run(wrong, basis, 12.0, descriptor_guidance(places, places))) < 0.02
@@ -59,7 +59,7 @@ def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
     basis = laplace_basis(mesh, 50)
     zoom = ZoomOut(6, 40, 8, samples=200, descriptor_weight=12.0)
     wrong = np.diag([1.0, -1, 1, 1, 1, 1])
-    found = zoom(wrong, basis, basis, threads=1, guide=descriptor_guidance(mesh.vertices, mesh.vertices))
+    found = zoom(wrong, basis, basis, guide=descriptor_guidance(mesh.vertices, mesh.vertices))
     assert np.linalg.norm(mesh.vertices[found.target_to_source] - mesh.vertices, axis=1).mean() < 0.02
 
 

@@ -5,6 +5,7 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
+from kfmaps._threads import limit_threads
 from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.full_kernel import hadamard_term, kernel_descriptor_term
 from kfmaps.fmap.multiplication_operators import multiplication_operators, truncate_operators, unpack_operators
@@ -174,7 +175,8 @@ def test_slices_are_packed_and_unpacked(case, asarray, convert):
     np.testing.assert_allclose(to_numpy(unpack_operators(packed)), wanted, rtol=1e-10, atol=1e-12)
     gram = to_numpy(packed @ packed.T)
     np.testing.assert_allclose(gram, np.einsum("iab,jab->ij", wanted, wanted), rtol=1e-10)
-    threaded = multiplication_operators(source, W, block=4, threads=3)
+    with limit_threads(3):
+        threaded = multiplication_operators(source, W, block=4)
     np.testing.assert_allclose(threaded, to_numpy(packed), rtol=1e-10, atol=1e-13)
     single = multiplication_operators(source, W, block=4, single=True)
     off = np.abs(single - threaded).max() / np.abs(threaded).max()

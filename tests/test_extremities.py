@@ -197,9 +197,9 @@ def test_each_map_may_have_evidence_of_its_own(on):
     maps = np.repeat(np.eye(10)[None], 3, axis=0)
     cost = on.few.matching_cost(4.0, 0.0, 30.0, pairs)
     assert cost.shape == (3, len(on.few.target.positions), len(on.few.source.positions))
-    together = batched_zoomout(maps, *bases, (10, 20, 30), cost, 1)
+    together = batched_zoomout(maps, *bases, (10, 20, 30), cost)
     for i, pairing in enumerate(pairs):
-        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.few.matching_cost(4.0, 0.0, 30.0, [pairing]), 1)
+        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.few.matching_cost(4.0, 0.0, 30.0, [pairing]))
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
     speaks = on.few.matching_cost(0.0, 0.0, 2.0, pairs[:1])

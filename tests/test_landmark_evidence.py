@@ -71,7 +71,7 @@ def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
     C = functional(creatures[2], creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].whole, 1))
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].whole))
     monkeypatch.setattr(choose, "without_landmarks", lambda *_a, **_m: [])
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=-np.inf))
 
@@ -154,19 +154,19 @@ def test_backing_takes_away_doubt() -> None:
 def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
     on = given(creatures, 10)
     maps = (functional(creatures[2], creatures, 40), slid)
-    right, wrong = (score_maps([Start("a", C)], on, 1)[0] for C in maps)
+    right, wrong = (score_maps([Start("a", C)], on)[0] for C in maps)
     areas = np.asarray(on.source.samples.basis.mass)
     assert on.landmark_evidence is not None
     assert (
-        backed_by(right, on, 1)
-        == landmark_support(ignore_landmarks(right, on, 1).landmark_errors, on.landmark_evidence.distances, areas)
+        backed_by(right, on)
+        == landmark_support(ignore_landmarks(right, on).landmark_errors, on.landmark_evidence.distances, areas)
         > 0.3
     )
     # With landmarks in it the refinement would keep to them.
-    led = choose.rerefine([wrong], on, 1)[0]
+    led = choose.rerefine([wrong], on)[0]
     assert landmark_support(led.landmark_errors, on.landmark_evidence.distances, areas) > 0.3
-    assert backed_by(wrong, on, 1) < 1e-3
-    assert backed_by(right, replace(on, landmark_cost=None, landmark_evidence=None), 1) == 0.0
+    assert backed_by(wrong, on) < 1e-3
+    assert backed_by(right, replace(on, landmark_cost=None, landmark_evidence=None)) == 0.0
 
 
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
@@ -315,7 +315,7 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = functional(truth, creatures, 40)
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("a", C)], on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("a", C)], on)]
     at = spread_out(creatures, 4)
     begun, leads, usual = [], [], mending.build_guidance
 
@@ -329,7 +329,7 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
 
     monkeypatch.setattr(mending, "build_guidance", lead)
     monkeypatch.setattr(mending, "alternating_registration", made)
-    (way,) = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at, 1)[1]
+    (way,) = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at)[1]
     assert isinstance(way, mending.SwappedRepair)
     way.make()
     (t, s), (s_again, t_again) = begun

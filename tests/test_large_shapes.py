@@ -8,6 +8,7 @@ import pytest
 import kfmaps.shape as fit_shape
 from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput, inner
+from kfmaps._threads import limit_threads
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
 from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.convert import to_functional, to_points
@@ -163,7 +164,7 @@ def test_every_choice_of_points_comes_from_the_seed(pair):
 def test_search_of_all_cells_is_exact(rng):
     points, queries = rng.normal(size=(300, 40)) + 5, rng.normal(size=(70, 40)) + 5
     for size in (1, 7, 300):
-        found = approximate_nearest(queries, points, size=size, probes=300, threads=2)
+        found = approximate_nearest(queries, points, size=size, probes=300)
         np.testing.assert_array_equal(found, brute(queries, points))
 
 
@@ -188,9 +189,9 @@ def test_search_by_cells_misses_few_and_none_by_much(pair):
 def test_cells_hold_every_point_once(pair, size, threads):
     source, _, _ = pair
     functions = source.basis.functions[:, :40]
-    np.testing.assert_array_equal(
-        approximate_nearest(functions, functions, size=size, threads=threads), np.arange(len(functions))
-    )
+    with limit_threads(threads):
+        found = approximate_nearest(functions, functions, size=size)
+    np.testing.assert_array_equal(found, np.arange(len(functions)))
 
 
 def test_search_by_cells_takes_empty_and_tiny_sets(rng):

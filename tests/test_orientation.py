@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput
+from kfmaps._threads import limit_threads
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.geometry.orientation_operators import orientation_operators
@@ -148,8 +149,10 @@ def test_on_the_square_it_converges_with_the_square_of_the_spacing():
 def test_threads_and_libraries_agree(convert, rng):
     mesh = unit_area(blob(200))
     basis, functions = laplace_basis(mesh, 8), rng.normal(size=(200, 5))
-    plainly = orientation_operators(mesh, basis, functions, threads=1)
-    np.testing.assert_array_equal(plainly, orientation_operators(mesh, basis, functions, threads=3))
+    with limit_threads(1):
+        plainly = orientation_operators(mesh, basis, functions)
+    with limit_threads(3):
+        np.testing.assert_array_equal(plainly, orientation_operators(mesh, basis, functions))
     other = convert(basis)
     operators = orientation_operators(mesh, other, functions)
     assert type(operators) is type(other.functions)

@@ -57,27 +57,27 @@ def test_the_best_rival_is_the_other_way_that_distances_allow():
     measure = distance_bounds(part.distances, part.boundary_distance, SCALE)
     first = beam_search(measure, part.boundary_distance, whole.distances, 0.05 * np.eye(2 * HALF, dtype=np.float32))[0]
     assert (first.match == np.arange(2 * HALF))[first.trust > 0].all()
-    found = _alternative_placements(PartPair(part, whole, threads=1), SCALE, points)
+    found = _alternative_placements(PartPair(part, whole), SCALE, points)
     assert np.median(np.linalg.norm(points[found[0].placed.match] - points[OTHER], axis=1)) < 0.02
     assert found[0].placed.support > 0.9
     assert {one.scale for one in found} == {SCALE * beside for beside in _SCALE_RATIOS}
-    fixed = _alternative_placements(PartPair(part, whole, True, 1), SCALE, points)
+    fixed = _alternative_placements(PartPair(part, whole, True), SCALE, points)
     assert {one.scale for one in fixed} == {SCALE}
     # And from there the rival is where it was before.
-    back = _alternative_placements(PartPair(part, whole, threads=1), SCALE, points[OTHER])
+    back = _alternative_placements(PartPair(part, whole), SCALE, points[OTHER])
     assert np.median(np.linalg.norm(points[back[0].placed.match] - points, axis=1)) < 0.02
 
 
 def test_rivals_lie_elsewhere_and_have_the_scale_of_the_placing():
     points, part, whole = sheet()
-    for one in _alternative_placements(PartPair(part, whole, threads=1), SCALE, points):
+    for one in _alternative_placements(PartPair(part, whole), SCALE, points):
         assert one.scale in [SCALE * beside for beside in _SCALE_RATIOS]
         assert np.median(np.linalg.norm(points[one.placed.match] - points, axis=1)) > SCORE.part.distinct_distance
 
 
 def test_a_landmark_allows_no_rival_that_moves_it():
     points, part, whole = sheet(marks=2)
-    for one in _alternative_placements(PartPair(part, whole, threads=1), SCALE, points):
+    for one in _alternative_placements(PartPair(part, whole), SCALE, points):
         assert one.placed.match[:2].tolist() == [0, 1]
         assert one.placed.support < 0.9
 

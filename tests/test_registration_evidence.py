@@ -98,7 +98,7 @@ def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creatures):
 def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(creatures, at_rest):
     source, target, truth = creatures
     v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
-    about = nearest(v, v * [-1.0, -1.0, 1.0], threads=1)
+    about = nearest(v, v * [-1.0, -1.0, 1.0])
     right, wrong = functional(truth, source, target), functional(about[truth], source, target)
     good, bad = (registered_shot_error(C, at_rest) for C in (right, wrong))
     assert good is not None
@@ -132,7 +132,7 @@ def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatc
 def one_of(creatures):
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
-    return on, score_maps([Start("truth", functional(truth, source, target))], on, 1)[0]
+    return on, score_maps([Start("truth", functional(truth, source, target))], on)[0]
 
 
 def test_looks_and_strain_count_over_usual_ones(creatures):
@@ -161,14 +161,14 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
+    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere)[0]
     assert [c.name for c in ranked] == ["bad", "truth"]
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
     monkeypatch.setattr(mending, "score_maps", lambda starts, *_w: [bad if starts[0].name == "bad" else good])
     monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
+    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere)[0]
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
@@ -184,7 +184,7 @@ def test_repairs_that_were_given_up_count_as_the_worst(creatures, monkeypatch):
     monkeypatch.setattr(mending, "compared", lambda found, *_what: found)
     monkeypatch.setattr(mending, "_repair_all", lambda *_what: (ended, {2: maps[2]}))
     nowhere, copies = np.zeros((0, 2), dtype=np.int64), ProxyCache.of(source, target, on)
-    found = refine_by_registration(maps, on, copies, nowhere, 1)[0]
+    found = refine_by_registration(maps, on, copies, nowhere)[0]
     assert {c.name: c.shot_error for c in found} == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
     assert {c.name: c.strain for c in found} == {"0": 0.0, "1": 1.0, "2": 1.0}
 
@@ -246,7 +246,7 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     bent = []
     monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on), 1)
+    found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on))
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.shot_error for c in found[:2]] == pytest.approx([0.0, 0.05])
     assert found[0].score - found[1].score == pytest.approx(0.05 * SCORE.w_shot - margin)
@@ -266,11 +266,11 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
         maps, copies = [one, other], ProxyCache.of(source, target, on)
-        first = ranking.ranking(maps, on, copies, 1)[0].score
+        first = ranking.ranking(maps, on, copies)[0].score
         assert len(asked) == wanted
-        ranking.ranking(maps, on, copies, 1, least=first)
+        ranking.ranking(maps, on, copies, least=first)
         assert len(asked) == wanted  # not where the first would have to be better
-        ranking.ranking(maps, on, copies, 1, least=first - 0.1)
+        ranking.ranking(maps, on, copies, least=first - 0.1)
         assert len(asked) == 2 * wanted
 
 
@@ -286,7 +286,7 @@ def test_what_is_far_behind_is_not_looked_at(creatures):
         asked.append(c.strain)
         return replace(c, shot_error=0.2 + 0.1 * c.strain)
 
-    found = compared(behind, looked_at, 1)
+    found = compared(behind, looked_at)
     assert asked == [c.strain for c in behind[:2]]
     assert [c.strain for c in found] == [c.strain for c in behind]
     worst = 0.2 + 0.1 * (SCORE.hopeless_margin - 1) / SCORE.w_strain
@@ -303,7 +303,7 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
 
     def few(*what, **how):
         asked.append((what[3], how))
-        return score_maps([Start("free", np.eye(40))], what[3].whole, 1)
+        return score_maps([Start("free", np.eye(40))], what[3].whole)
 
     monkeypatch.setattr(choose, "candidates", few)
     found = without_landmarks(source, target, kfmaps.Config(), on, 3, descriptors=None)

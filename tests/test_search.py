@@ -56,9 +56,9 @@ def test_many_maps_at_once_are_refined_as_one_is(shape, other, weight):
     rng = np.random.default_rng(0)
     starts = np.stack([np.diag([1.0, *signs]) for signs in rng.choice([-1.0, 1.0], size=(7, 5))])
     against = np.float32(weight) * descriptor_cost(led) if weight else None
-    maps, points = batched_zoomout(starts, a.basis, b.basis, (6, 14, 22, 30), against, threads=2)
+    maps, points = batched_zoomout(starts, a.basis, b.basis, (6, 14, 22, 30), against)
     for C, here, start in zip(maps, points, starts, strict=True):
-        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, threads=1, guide=led)
+        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, guide=led)
         np.testing.assert_allclose(C, one.functional_map, atol=2e-3)
         assert (here != one.target_to_source).mean() < 0.02
 

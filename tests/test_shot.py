@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 import kfmaps.descriptors.shot as module
 from conftest import blob
 from kfmaps._arrays import InvalidInput
+from kfmaps._threads import limit_threads
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from plain_shot import plain_shot
@@ -80,9 +81,11 @@ def test_rows_are_of_unit_length_and_not_negative():
 
 def test_blocks_and_threads_change_nothing(monkeypatch):
     mesh = blob(300)
-    whole = shot(mesh, 0.2, threads=1)
+    with limit_threads(1):
+        whole = shot(mesh, 0.2)
     monkeypatch.setattr(module, "_PAIRS", 700)
-    np.testing.assert_allclose(whole, shot(mesh, 0.2, threads=3), atol=1e-7)
+    with limit_threads(3):
+        np.testing.assert_allclose(whole, shot(mesh, 0.2), atol=1e-7)
 
 
 def test_a_point_on_its_way_is_handed_over_smoothly():

@@ -34,7 +34,7 @@ def pair(monkeypatch: pytest.MonkeyPatch) -> PartPair:
         between = np.abs(line[:, :1] - line[:, 0]).astype(np.float32) / np.float32(scale)
         sides.append(PartSamples(mesh, np.arange(5), between, boundary))
     monkeypatch.setattr(PartSamples, "shot", lambda *_: np.ones((5, 1), dtype=np.float32))
-    return PartPair(*sides, threads=1, small_scale=SCALE)
+    return PartPair(*sides, small_scale=SCALE)
 
 
 def test_shot_counts_as_far_as_its_ball_fits(pair: PartPair) -> None:

@@ -6,6 +6,7 @@ from kfmaps._arrays import InvalidInput as InvalidInput
 from kfmaps._arrays import KfmapsWarning as KfmapsWarning
 from kfmaps._arrays import MissingDependency as MissingDependency
 from kfmaps._arrays import NotConverged as NotConverged
+from kfmaps._threads import limit_threads as limit_threads
 from kfmaps.api import geodesic_errors as geodesic_errors
 from kfmaps.api import match as match
 from kfmaps.api import prepare as prepare

@@ -18,6 +18,8 @@ from typing import TypeVar
 
 from threadpoolctl import ThreadpoolController, threadpool_info
 
+from kfmaps._arrays import check_count
+
 A = TypeVar("A")
 B = TypeVar("B")
 
@@ -29,13 +31,45 @@ def available_cores() -> int:
     return os.cpu_count() or 1
 
 
-class _Depth(local):
-    """Depth of the current thread inside :func:`one_blas_thread`."""
+class _State(local):
+    """Limits that hold in the current thread."""
 
-    value = 0
+    blas_depth = 0  # nested contexts of :func:`one_blas_thread`
+    n_threads: int | None = None  # of :func:`limit_threads`; ``None`` is every available core
 
 
-_depth = _Depth()
+_state = _State()
+
+
+@contextmanager
+def limit_threads(count: int | None) -> Iterator[None]:
+    """Return a context in which all functions use at most ``count`` Python threads.
+
+    Without one they use every available core. A context within another one can only lower the limit. It holds in the
+    thread that enters it. :func:`kfmaps.match` and :func:`kfmaps.prepare` enter it with ``Config.threads``.
+
+    Parameters
+    ----------
+    count : int or None
+        At least 1; ``None`` changes nothing.
+
+    Raises
+    ------
+    InvalidInput
+        When ``count`` is not a whole number above zero.
+    """
+    before = _state.n_threads
+    if count is not None:
+        _state.n_threads = min(check_count(count, "threads"), before or count)
+    try:
+        yield
+    finally:
+        _state.n_threads = before
+
+
+def n_threads() -> int:
+    """Return how many Python threads may work at once here."""
+    return _state.n_threads or available_cores()
 
 
 @contextmanager
@@ -44,15 +78,15 @@ def one_blas_thread() -> Iterator[None]:
 
     Listing all loaded libraries takes some milliseconds, so it is done again only after something has been imported.
     """
-    if _depth.value:
+    if _state.blas_depth:
         yield
         return
     with _controller(len(sys.modules)).limit(limits=1):
-        _depth.value += 1
+        _state.blas_depth += 1
         try:
             yield
         finally:
-            _depth.value -= 1
+            _state.blas_depth -= 1
 
 
 @lru_cache(1)
@@ -62,23 +96,24 @@ def _controller(n_modules: int) -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:
+def parallel(function: Callable[[A], B], items: Iterable[A]) -> list[B]:
     """Return ``[function(item) for item in items]``, computed by Python threads with one BLAS thread each.
 
-    ``threads``: how many at once, by default one for each available core; 1 gives a plain loop.
+    There are at most :func:`n_threads`, and parallel work inside ``function`` shares them out. One gives a plain loop.
     """
     items = list(items)
-    count = min(threads or available_cores(), max(len(items), 1))
+    available = n_threads()
+    count = max(min(available, len(items)), 1)
     with one_blas_thread():
         if count == 1:
             return [function(item) for item in items]
-        with ThreadPoolExecutor(count, initializer=_enter_worker) as pool:
+        with ThreadPoolExecutor(count, initializer=_enter_worker, initargs=(available // count,)) as pool:
             return list(pool.map(function, items))
 
 
-def _enter_worker() -> None:
-    """Mark a new worker thread as inside :func:`one_blas_thread`, whose limit holds for the whole process."""
-    _depth.value = 1
+def _enter_worker(n_threads: int) -> None:
+    """Set the limits of a new worker thread. That of BLAS holds for the whole process already."""
+    _state.blas_depth, _state.n_threads = 1, n_threads
     if _has_thread_limits():
         _controller(len(sys.modules)).limit(limits=1)
 

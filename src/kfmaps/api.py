@@ -197,7 +197,6 @@ def zoomout(
     stop: int | None = None,
     step: int = 5,
     samples: int | None = None,
-    threads: int | None = None,
 ) -> Refined:
     """Refine a functional map by ZoomOut: point map and functional map in turn while the basis grows.
 
@@ -213,7 +212,6 @@ def zoomout(
         Growth of the size from one step to the next.
     samples : int, optional
         Points of the target that all steps but the last work on; by default all.
-    threads : int, optional
 
     Returns
     -------
@@ -242,7 +240,7 @@ def zoomout(
     refine = ZoomOut(
         min(initial.shape) if start is None else start, min(k_s, k_t) if stop is None else stop, step, samples
     )
-    return refine(initial, bases[0], bases[1], threads=threads)
+    return refine(initial, bases[0], bases[1])
 
 
 def render(

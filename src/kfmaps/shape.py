@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import Array, KfmapsWarning, refuse, take
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._records import short_repr
-from kfmaps._threads import available_cores, parallel
+from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
@@ -163,15 +163,15 @@ def prepare(
             mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
             cleaned = clean_mesh(mesh, specks=True)
             unit = unit_area(cleaned.mesh)
-    laplacian, radius, threads = config.basis.laplacian, config.descriptors.shot_radius, config.threads
+    laplacian, radius = config.basis.laplacian, config.descriptors.shot_radius
     size, local = config.n_eigenfunctions, None
     tolerance = EXACT if len(unit.vertices) <= EXACT_EIGENPAIRS else LOOSE_TOLERANCE
-    with timer("eigenfunctions"):
+    with limit_threads(config.threads), timer("eigenfunctions"):
         stage = partial(timer.report, "eigenfunctions")
-        basis = laplace_basis(unit, size, laplacian, threads=threads, progress=stage, tolerance=tolerance)
+        basis = laplace_basis(unit, size, laplacian, progress=stage, tolerance=tolerance)
     if config.descriptors.shot and len(mesh.faces):
-        with timer("SHOT"):
-            local = _local_descriptors(unit, basis, radius, threads, lambda d: timer.report("SHOT", min(d, 0.99)))
+        with limit_threads(config.threads), timer("SHOT"):
+            local = _local_descriptors(unit, basis, radius, lambda d: timer.report("SHOT", min(d, 0.99)))
     radius = None if local is None else radius
     extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
     shape = Shape(Mesh(unit.vertices, mesh.faces), basis, local, name, timer.seconds, laplacian, radius, extent)
@@ -188,7 +188,7 @@ def prepare(
 
 
 def _local_descriptors(
-    mesh: Mesh, basis: Basis, radius: float, threads: int | None = None, progress: Callable[[float], None] | None = None
+    mesh: Mesh, basis: Basis, radius: float, progress: Callable[[float], None] | None = None
 ) -> np.ndarray:
     """Return SHOT at all vertices of a mesh of unit area, (n, 352), computed at :data:`MAX_SHOT_VERTICES` at most.
 
@@ -196,14 +196,14 @@ def _local_descriptors(
     normals, weighted by inverse squared distances.
     """
     if len(mesh.vertices) <= MAX_SHOT_VERTICES:
-        return shot(mesh, radius, threads=threads, progress=progress)
+        return shot(mesh, radius, progress=progress)
     vertices = stratified_vertices(basis, MAX_SHOT_VERTICES, 0)
     positions = mesh.vertices[vertices]
     neighbours = KDTree(positions).query_ball_point(positions[::8], radius, return_length=True)
     samples = min(_SUPPORT, round(_BALL_SUPPORT * len(positions) / neighbours.mean()))
-    sampled = shot(mesh, radius, samples=samples, at=vertices, threads=threads, progress=progress)
+    sampled = shot(mesh, radius, samples=samples, at=vertices, progress=progress)
     points = np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
-    distances, neighbours = KDTree(points[vertices]).query(points, k=3, workers=threads or available_cores())
+    distances, neighbours = KDTree(points[vertices]).query(points, k=3, workers=n_threads())
     weights = 1.0 / np.maximum(np.asarray(distances) ** 2, 1e-12)
     weights /= weights.sum(axis=1, keepdims=True)
     # In single precision, since no other array of a large shape takes as much memory.
@@ -294,12 +294,12 @@ def prepare_both(
             _check_size(shape, name, config)
         else:
             check_prepared(shape, config)
-    workers = config.threads or available_cores()
     unprepared = [shape for shape in (source, target) if isinstance(shape, Mesh)]
     in_parallel = len(unprepared) == 2 and max(len(mesh.vertices) for mesh in unprepared) < THREADED
-    shape_config = replace(config, threads=max(1, workers // 2)) if in_parallel else config
 
-    def prepared(shape: Mesh | Shape, name: str) -> Shape:
-        return prepare(shape, shape_config, name=name, progress=progress) if isinstance(shape, Mesh) else shape
+    def prepared(item: tuple[Mesh | Shape, str]) -> Shape:
+        shape, name = item
+        return prepare(shape, config, name=name, progress=progress) if isinstance(shape, Mesh) else shape
 
-    return parallel(lambda item: prepared(*item), named_shapes, min(workers, 2) if in_parallel else 1)
+    with limit_threads(config.threads), one_blas_thread():
+        return parallel(prepared, named_shapes) if in_parallel else [prepared(item) for item in named_shapes]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps._threads import one_blas_thread
+from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.batch.cache import file_digest, load_record, save_record
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair
@@ -189,7 +189,7 @@ def _score_maps(job: _ScoreTask) -> list[ScoredMap]:
     kept = load_record(job.file, _Evidence)
     if kept is None or kept.inputs != inputs:
         shapes = pair_shapes(job.task)
-        with one_blas_thread():
+        with limit_threads(1), one_blas_thread():
             samples = pair_samples(job.task, shapes)
             if job.steps:
                 maps = score_pair_maps([_compose(job)], shapes, samples)

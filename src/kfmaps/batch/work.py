@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
-from kfmaps._threads import one_blas_thread
+from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.batch.cache import cached_samples, file_digest, load_record, save_record
 from kfmaps.batch.jobs import MAX_DEATHS
 from kfmaps.batch.layout import Pair
@@ -197,7 +197,7 @@ def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Res
 def _attempt(work: Callable[[], dict[str, Any]]) -> tuple[dict[str, Any], str, tuple[str, ...]]:
     """Return the value of ``work``, why it failed, and its warnings: one bad pair must not end the run."""
     done, reason = {}, ""
-    with warnings.catch_warnings(record=True) as told, one_blas_thread():
+    with warnings.catch_warnings(record=True) as told, limit_threads(1), one_blas_thread():
         warnings.simplefilter("always", KfmapsWarning)
         try:
             done = work()

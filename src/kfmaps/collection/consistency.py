@@ -57,7 +57,7 @@ def score_stored(
     if raw is None:
         return score_pair_maps(maps, shapes, samples)
     source, target = (shape.basis for shape in shapes)
-    points = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target, 1)
+    points = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target)
     first, before, *others = score_pair_maps([maps[0], (points, maps[0][1]), *maps[1:]], shapes, samples)
     return [with_better_score(first, before), *others]
 

@@ -83,4 +83,4 @@ def invert_map(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndar
     k = min(60, len(source.eigenvalues))  # functions by which the nearest images are found where a map is inverted
     values = to_numpy(source.eigenvalues)[1:k]
     places = to_numpy(source.functions)[:, 1:k] / np.sqrt(np.maximum(values, max(eigenvalue_tolerance(source), 1e-9)))
-    return nearest(places, places[points], threads=1)
+    return nearest(places, places[points])

@@ -52,7 +52,7 @@ def score_pair_maps(
         on = build_sample_pair(samples[0], mirror_samples(samples[1]) if back else samples[1])
         rows = [i for i, (_, turned) in enumerate(maps) if turned == back]
         weights = (FINE_WEIGHTS[0][0] if on.descriptor_cost is not None else 0.0, 0.0)
-        settled = refine_batch([Start("", rough[i], weights=weights) for i in rows], on, (max(k // 2, 2), k), 1)
+        settled = refine_batch([Start("", rough[i], weights=weights) for i in rows], on, (max(k // 2, 2), k))
         for i, one in zip(rows, settled, strict=True):
             C = one.functional_map[:N_FUNCTIONS, :N_FUNCTIONS]
             found[i] = ScoredMap(C, one.quality.score, one.quality.orientation, back)

@@ -78,7 +78,6 @@ def shot(
     *,
     samples: int = 10_000,
     at: np.ndarray | None = None,
-    threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
     """Return the signature of histograms of orientations (SHOT) of every vertex, or of some.
@@ -106,8 +105,6 @@ def shot(
         there are more than twice as many faces, neighbouring ones are merged.
     at : (q,) int64, optional
         Vertices whose descriptors are wanted; all when not given.
-    threads : int, optional
-        Python threads; every available core when not given.
     progress : callable, optional
         Told how much is done, from 0 to 1.
 
@@ -135,10 +132,9 @@ def shot(
     check(mesh.vertices, "vertices")
     part = clean_mesh(mesh)
     if not part.whole:
-        same = {"samples": samples, "threads": threads, "progress": progress}
         if at is None:
-            return shot(part.mesh, radius, **same)[part.to_clean]
-        return shot(part.mesh, radius, at=part.to_clean[at], **same)
+            return shot(part.mesh, radius, samples=samples, progress=progress)[part.to_clean]
+        return shot(part.mesh, radius, samples=samples, at=part.to_clean[at], progress=progress)
     mesh = unit_area(mesh)
     support = _surface_support(mesh, vertex_normals(mesh), samples)
     tree = KDTree(support.points)
@@ -153,7 +149,7 @@ def shot(
         if progress is not None:
             progress(done / len(result))
 
-    parallel(fill, _blocks(centres, tree, radius), threads)
+    parallel(fill, _blocks(centres, tree, radius))
     return result
 
 

@@ -30,20 +30,18 @@ def approximate_nearest(
     *,
     size: int = 64,
     probes: int = N_PROBE,
-    threads: int | None = None,
 ) -> np.ndarray:
     """Return for each query a point that is nearly the closest, (q,) int64.
 
     ``queries (q, d)`` and ``points (p, d)``: at least one point. Rows whose leading columns are alike should be alike:
     those of smooth functions on a surface, the lowest first. Otherwise more is missed. ``size``: points in a cell,
-    about. With ``p`` all points are compared, in single precision. ``probes``: cells that each query names;
-    ``threads``: Python threads; ``None`` takes every core.
+    about. With ``p`` all points are compared, in single precision. ``probes``: cells that each query names.
     """
     p, q = len(points), len(queries)
     probes = check_count(probes, "probes")
     middle = points.mean(axis=0, dtype=np.float64)
     unit = float((points.max(axis=0) - points.min(axis=0)).max()) or 1.0
-    order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit, threads)
+    order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit)
     rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 4096)])
     centres = _means(rows, edges)
     wider = _means(rows, edges[patches])
@@ -63,13 +61,11 @@ def approximate_nearest(
             found = _inside(edges, cells)
             answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
 
-    parallel(search, blocks(len(bounds) - 1, 64), threads)
+    parallel(search, blocks(len(bounds) - 1, 64))
     return answer
 
 
-def _cells(
-    points: np.ndarray, size: int, middle: np.ndarray, unit: float, threads: int | None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _cells(points: np.ndarray, size: int, middle: np.ndarray, unit: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """An order of ``points``, where each cell starts in it, and which cell each patch starts with (and the ends)."""
     count = min(512, -(-len(points) // size))
     order, starts = _runs(points, -(-len(points) // count))
@@ -78,7 +74,7 @@ def _cells(
     def closest(part: slice) -> np.ndarray:
         return np.argmax(_scores(_single(points[part], middle, unit), seeds), axis=1)
 
-    patch = np.concatenate(parallel(closest, blocks(len(points), 4096), threads))
+    patch = np.concatenate(parallel(closest, blocks(len(points), 4096)))
     # Within a patch the order stays: what lies together there is a cell.
     order = order[np.argsort(patch[order], kind="stable")]
     sizes = np.bincount(patch)

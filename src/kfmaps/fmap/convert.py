@@ -20,7 +20,6 @@ def to_points(
     C: Array,
     source: Basis,
     target: Basis,
-    threads: int | None = None,
     beside: tuple[Array, Array] | None = None,
     exact: bool | None = None,
     probes: int = N_PROBE,
@@ -35,7 +34,6 @@ def to_points(
     C : (k_t, k_s)
     source, target : Basis
         Of at least that many functions.
-    threads : int, optional
     beside : pair of (n_s, d) and (n_t, d), optional
         Further columns to compare; see :func:`embed`.
     exact, probes
@@ -49,8 +47,8 @@ def to_points(
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == images.shape[0]:
-        return nearest(places, images, threads=threads, exact=exact, probes=probes)
-    return used[nearest(places, take(images, used), threads=threads, exact=exact, probes=probes)]
+        return nearest(places, images, exact=exact, probes=probes)
+    return used[nearest(places, take(images, used), exact=exact, probes=probes)]
 
 
 def embed(

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps._arrays import Array, blocks, check, is_numpy, like, namespace, refuse, take, to_numpy
-from kfmaps._threads import available_cores, parallel
+from kfmaps._threads import n_threads, parallel
 from kfmaps.geometry.basis import Basis
 
 
@@ -38,15 +38,13 @@ def truncate_features(
     return features_s @ rotation, features_t @ rotation
 
 
-def multiplication_operators(
-    basis: Basis, features: Array, block: int = 512, threads: int | None = None, single: bool = False
-) -> Array:
+def multiplication_operators(basis: Basis, features: Array, block: int = 512, single: bool = False) -> Array:
     """Return the packed upper triangles ``(r, k(k+1)/2)`` of the multiplication operators of features.
 
     Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of the
     operators. One matrix product per block of vertices; no n × k² array.
 
-    ``features (n, r)``; ``block``: vertices of one product, on one of ``threads``; ``single``: whether products of
+    ``features (n, r)``; ``block``: vertices of one product; ``single``: whether products of
     NumPy arrays are in single precision. Blocks are summed in double: operators differ by less than ``block`` · 6e-8 of
     the norm of their summands, by 1e-7 as a rule.
     """
@@ -70,10 +68,10 @@ def multiplication_operators(
         return total
 
     parts = blocks(n, block)
-    count = min(threads or available_cores(), len(parts)) if is_numpy(features) else 1
+    count = min(n_threads(), len(parts)) if is_numpy(features) else 1
     shares = [parts[i::count] for i in range(count)]
     total = None
-    for part in parallel(share, shares, count):
+    for part in parallel(share, shares):
         total = part if total is None else total + part
     return (total * scale[:, None]).T
 

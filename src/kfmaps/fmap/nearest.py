@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to_numpy
-from kfmaps._threads import available_cores, parallel
+from kfmaps._threads import n_threads, parallel
 from kfmaps.fmap.approximate_nearest import N_PROBE, approximate_nearest
 
 _TREE_POINTS = 20_000  # points beyond which a k-d tree is built
@@ -25,7 +25,6 @@ def nearest(
     queries: Array,
     points: Array,
     block: int = 1024,
-    threads: int | None = None,
     exact: bool | None = None,
     probes: int = N_PROBE,
 ) -> np.ndarray:
@@ -41,8 +40,6 @@ def nearest(
     queries, points : (q, d), (p, d)
     block : int
         Rows of one matrix product.
-    threads : int, optional
-        Python threads; ``None`` takes every core.
     exact : bool, optional
         ``True`` never searches approximately; ``False`` does so on NumPy arrays of any size in many dimensions.
     probes : int
@@ -61,10 +58,10 @@ def nearest(
     if is_numpy(queries):
         queries, points = _in_range(queries, points)
         if _in_tree(len(points), points.shape[1]):
-            return _by_tree(queries, points, threads)
+            return _by_tree(queries, points)
         if searches_cells(len(queries), len(points), points.shape[1], exact):
-            return approximate_nearest(queries, points, threads=threads, probes=probes)
-    return _exact(queries, points, block, threads)
+            return approximate_nearest(queries, points, probes=probes)
+    return _exact(queries, points, block)
 
 
 def _in_tree(points: int, dimensions: int) -> bool:
@@ -91,9 +88,9 @@ def _in_range(queries: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.n
     return np.ldexp(queries, shift), np.ldexp(points, shift)
 
 
-def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np.ndarray:
+def _by_tree(queries: np.ndarray, points: np.ndarray) -> np.ndarray:
     """The exact search by a k-d tree; what it finds as close as the closest is compared anew, for the first of it."""
-    tree, workers = KDTree(points), threads or available_cores()
+    tree, workers = KDTree(points), n_threads()
     distance, found = map(np.asarray, tree.query(queries, k=2, workers=workers))
     answer = found[:, 0].astype(np.int64)
     ties = np.flatnonzero(distance[:, 1] <= distance[:, 0] * (1 + _TIE))
@@ -112,9 +109,9 @@ def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np
     return answer
 
 
-def _exact(queries: Array, points: Array, block: int, threads: int | None) -> np.ndarray:
+def _exact(queries: Array, points: Array, block: int) -> np.ndarray:
     if is_numpy(queries, points) and queries.dtype == points.dtype == np.float64:
-        return _screened(queries, points, block, threads)
+        return _screened(queries, points, block)
     xp = namespace(queries, points)
     centre = xp.mean(points, axis=0, keepdims=True)
     points = points - centre
@@ -127,7 +124,7 @@ def _exact(queries: Array, points: Array, block: int, threads: int | None) -> np
     return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
 
 
-def _screened(queries: np.ndarray, points: np.ndarray, block: int, threads: int | None) -> np.ndarray:
+def _screened(queries: np.ndarray, points: np.ndarray, block: int) -> np.ndarray:
     """The exact search in float64, most of it done in float32 at twice the speed.
 
     A product in float32 finds the best point and how far the second best is behind. Where that is more than the errors
@@ -163,7 +160,7 @@ def _screened(queries: np.ndarray, points: np.ndarray, block: int, threads: int 
     # The scores of one block are to stay in the cache; but products of few rows are slow.
     rows = max(600_000 // len(points), min(64, 16_000_000 // len(points)), 16)
     parts = blocks(len(queries), min(block, rows))
-    found = parallel(best, parts, threads)
+    found = parallel(best, parts)
     return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
 
 

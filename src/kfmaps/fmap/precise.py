@@ -86,7 +86,6 @@ def to_precise_map(
     source: Basis,
     target: Basis,
     faces_s: np.ndarray,
-    threads: int | None = None,
     beside: tuple[Array, Array] | None = None,
 ) -> PointMap:
     """Return the closest points of the source's surface in the spectral embedding, for all target vertices.
@@ -95,11 +94,11 @@ def to_precise_map(
     :func:`kfmaps.fmap.convert.to_points`.
     """
     points, queries = (np.asarray(to_numpy(x), dtype=np.float64) for x in embed(C, source, target, beside))
-    return nearest_surface_points(queries, points, faces_s, threads)
+    return nearest_surface_points(queries, points, faces_s)
 
 
 def nearest_surface_points(
-    queries: np.ndarray, points: np.ndarray, faces: np.ndarray, threads: int | None = None, exact: bool | None = None
+    queries: np.ndarray, points: np.ndarray, faces: np.ndarray, exact: bool | None = None
 ) -> PointMap:
     """Return the closest point of some triangles to each query, in any dimension.
 
@@ -119,7 +118,7 @@ def nearest_surface_points(
     edges = (points[faces[:, j]] - points[faces[:, i]] for i, j in ((0, 1), (0, 2), (1, 2)))
     lengths = np.stack([(edge**2).sum(axis=1) for edge in edges], axis=1)
     if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
-        return _among_neighbours(queries, points, faces, lengths, around, threads)
+        return _among_neighbours(queries, points, faces, lengths, around)
     middle = points.mean(axis=0)
     y = (points - middle).astype(np.float32)
     squares = np.einsum("ij,ij->i", y, y)
@@ -144,7 +143,7 @@ def nearest_surface_points(
         candidates, entry = around.around(vertex)
         return candidates, rows.start + query[entry]
 
-    parts = parallel(search, blocks(len(queries), 256), threads)
+    parts = parallel(search, blocks(len(queries), 256))
     best = [_settled(queries, points, faces, lengths, *part) for part in parts]
     return PointMap(np.concatenate([b[0] for b in best]), np.concatenate([b[1] for b in best]))
 
@@ -191,11 +190,10 @@ def _among_neighbours(
     faces: np.ndarray,
     lengths: np.ndarray,
     around: VertexRings,
-    threads: int | None,
 ) -> PointMap:
     """Around the nearest vertex: the faces of that vertex, then of the corners of the best, until nothing is better."""
     used = np.flatnonzero(np.diff(around.start))
-    vertex = used[nearest(queries, points[used], threads=threads)]
+    vertex = used[nearest(queries, points[used])]
     best, weights = np.zeros(len(queries), dtype=np.int64), np.zeros((len(queries), 3))
     for part in range(0, len(queries), 4096):
         rows = np.arange(part, min(part + 4096, len(queries)))

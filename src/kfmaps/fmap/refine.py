@@ -41,7 +41,6 @@ class Refinement(Protocol):
         source: Basis,
         target: Basis,
         progress: StageProgress | None = None,
-        threads: int | None = None,
         points: np.ndarray | None = None,
     ) -> Refined: ...
 
@@ -62,7 +61,6 @@ class ICP:
         source: Basis,
         target: Basis,
         progress: StageProgress | None = None,
-        threads: int | None = None,
         points: np.ndarray | None = None,
     ) -> Refined:
         k_t, k_s = C.shape
@@ -70,13 +68,13 @@ class ICP:
             raise refuse("ICP", "a square functional map", f"{k_t} by {k_s}", "use equal basis sizes, or ZoomOut")
         xp = namespace(C)
         source, target = source.truncate(k_s), target.truncate(k_t)
-        points = to_points(C, source, target, threads) if points is None else points
+        points = to_points(C, source, target) if points is None else points
         changes: list[int] = []
         for step in range(self.steps):
             u, sizes, vh = xp.linalg.svd(to_functional(points, source, target), full_matrices=False)
             # Directions that the points say nothing of would be turned at random, by rounding.
             C = (u * xp.astype(sizes > 1e-12 * sizes[0], C.dtype)[None, :]) @ vh
-            moved = to_points(C, source, target, threads)
+            moved = to_points(C, source, target)
             changes.append(int(np.count_nonzero(moved != points)))
             points = moved
             if progress is not None:

@@ -87,7 +87,6 @@ class ZoomOut:
         source: Basis,
         target: Basis,
         progress: StageProgress | None = None,
-        threads: int | None = None,
         points: np.ndarray | None = None,
         guide: DescriptorGuidance | None = None,
     ) -> Refined:
@@ -105,12 +104,12 @@ class ZoomOut:
         C = C[:first, :first]
         for i, larger in enumerate(sizes[1:]):
             if points is None:
-                points = self._nearest(C, few_s, few_t, guide, threads, **search)
+                points = self._nearest(C, few_s, few_t, guide, **search)
             C, points = fit_functional_map(points, few_s.basis, few_t.basis, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
         if points is None:
-            points = self._nearest(C, all_s, all_t, guide, threads, probes=N_PROBE_FAST if sampled else N_PROBE)
+            points = self._nearest(C, all_s, all_t, guide, probes=N_PROBE_FAST if sampled else N_PROBE)
         if sampled:
             C = fit_functional_map(points, source, target, self.stop)
         if progress is not None:
@@ -124,7 +123,6 @@ class ZoomOut:
         source: Basis,
         target: Basis,
         progress: StageProgress | None = None,
-        threads: int | None = None,
         guide: DescriptorGuidance | None = None,
     ) -> tuple[Refined, Refined]:
         """Refine the maps of both directions, each held close to the adjoint of the other.
@@ -133,7 +131,7 @@ class ZoomOut:
         al., Continuous and orientation-preserving correspondences via functional maps, 2018, couple the two likewise;
         the mean is ours). Swapping the shapes and the maps swaps the answers.
 
-        ``C (k_t, k_s)`` and ``back (k_s, k_t)``; ``progress``, ``threads`` and ``guide`` as in :meth:`__call__`.
+        ``C (k_t, k_s)`` and ``back (k_s, k_t)``; ``progress`` and ``guide`` as in :meth:`__call__`.
 
         Raises
         ------
@@ -152,16 +150,16 @@ class ZoomOut:
         first = sizes[0]
         C = 0.5 * (C[:first, :first] + back[:first, :first].T)
         for i, larger in enumerate(sizes[1:]):
-            points = self._nearest(C, from_s, few_t, guide, threads)
+            points = self._nearest(C, from_s, few_t, guide)
             forth = fit_functional_map(points, from_s.basis, few_t.basis, larger)
-            points = self._nearest(C.T, from_t, few_s, guide_back, threads)
+            points = self._nearest(C.T, from_t, few_s, guide_back)
             C = 0.5 * (forth + fit_functional_map(points, from_t.basis, few_s.basis, larger).T)
             if progress is not None:
                 progress((i + 1) / len(sizes))
         all_s, all_t = _Points(source), _Points(target)
         found = (
-            Refined(C, self._nearest(C, all_s, all_t, guide, threads), tuple(sizes)),
-            Refined(C.T, self._nearest(C.T, all_t, all_s, guide_back, threads), tuple(sizes)),
+            Refined(C, self._nearest(C, all_s, all_t, guide), tuple(sizes)),
+            Refined(C.T, self._nearest(C.T, all_t, all_s, guide_back), tuple(sizes)),
         )
         if progress is not None:
             progress(1.0)
@@ -198,7 +196,6 @@ class ZoomOut:
         source: _Points,
         target: _Points,
         guide: DescriptorGuidance | None,
-        threads: int | None,
         **search: Any,
     ) -> np.ndarray:
         """A point of ``source`` for each of ``target``."""
@@ -206,7 +203,7 @@ class ZoomOut:
         if guide is not None and self.descriptor_weight:
             some = guide.at(source.vertices, target.vertices)
             columns = some.embedding_columns(self.descriptor_weight, source.basis, target.basis)
-        return to_points(C, source.basis, target.basis, threads, columns, **search)
+        return to_points(C, source.basis, target.basis, columns, **search)
 
 
 def _approximate(source: _Points, target: _Points) -> dict[str, Any]:
@@ -249,7 +246,6 @@ def batched_zoomout(
     target: SampledBasis,
     sizes: tuple[int, ...],
     cost: np.ndarray | None = None,
-    threads: int | None = None,
     solvers: Callable[[int], np.ndarray] | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Refine ``maps (m, k, k)`` on samples in single precision; return them and a source sample for each target sample.
@@ -274,7 +270,7 @@ def batched_zoomout(
             C = inverse @ phi_s[:, :larger][nearest_samples(C, phi_s, phi_t, own_cost)]
         return np.asarray(C, dtype=np.float64), nearest_samples(C, phi_s, phi_t, own_cost)
 
-    found = parallel(refine, range(0, len(maps), count), threads)
+    found = parallel(refine, range(0, len(maps), count))
     return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
 
 

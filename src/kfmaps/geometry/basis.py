@@ -166,7 +166,6 @@ def laplace_basis(
     k: int,
     laplacian: str = "robust",
     rng: int | np.random.Generator = 0,
-    threads: int | None = None,
     progress: Callable[[float], None] | None = None,
     tolerance: float = EXACT,
 ) -> Basis:
@@ -193,8 +192,6 @@ def laplace_basis(
     rng : int or numpy.random.Generator
         Start vectors of the eigensolver. The same input gives the same basis; each function's entry of largest
         magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.
-    threads : int, optional
-        Python threads on large meshes; ``None`` takes every available core.
     progress : callable, optional
         Told about how much is done, from 0 to 1.
     tolerance : float
@@ -216,7 +213,7 @@ def laplace_basis(
     check_is_mesh(mesh)
     part = clean_mesh(mesh)
     stiffness, area = _operators(part.mesh, laplacian, check_count(k, "k"))
-    pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, threads=threads, progress=progress)
+    pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, progress=progress)
     if part.whole:
         return Basis(pairs.values, pairs.vectors, area)
     mass = np.bincount(part.to_original, area, minlength=len(mesh.vertices))

@@ -15,7 +15,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 
 
-def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
+def orientation_operators(mesh: Mesh, basis: Basis, functions: Array) -> Array:
     """Return the matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
 
     Entry (i, j) of operator s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It
@@ -33,8 +33,6 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: i
     functions : (n, r)
         One function a column, values at the vertices. They are linear in these: for functions with coefficients c
         (k, r) in the basis, when r > k, combine ``orientation_operators(mesh, basis, basis.functions)`` by c.
-    threads : int, optional
-        Python threads; every available core when not given.
 
     Returns
     -------
@@ -67,7 +65,7 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: i
         half = phi.T @ (coupled @ phi)
         result[s] = half - half.T
 
-    parallel(fill, range(w.shape[1]), threads)
+    parallel(fill, range(w.shape[1]))
     return like(result, basis.functions)
 
 

@@ -132,14 +132,14 @@ def assemble(
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0
     if weights.commutativity:
-        packed = compressed_operators(small, (features.source, features.target), config.operator_rtol, config.threads)
+        packed = compressed_operators(small, (features.source, features.target), config.operator_rtol)
         size = sum(inner(X, X) for X in packed)
         multiplications = (unpack_operators(packed[0]), unpack_operators(packed[1]))
     if weights.orientation:
         strongest = principal_features(small, features, ORIENTATION_FEATURES)
         size = size or 2.0 * small[0].functions.shape[1]
         k = config.basis.n_eigenfunctions
-        orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
+        orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size)
     return FitProblem(config, shapes, small, features.kernel, descriptors, features, multiplications, orientations)
 
 
@@ -148,15 +148,12 @@ def _term_name(factory: object) -> str:
     return getattr(factory, "__name__", type(factory).__name__)
 
 
-def compressed_operators(
-    bases: tuple[Basis, Basis], features: tuple[Array, Array], rtol: float, threads: int | None = None
-) -> tuple[Array, Array]:
+def compressed_operators(bases: tuple[Basis, Basis], features: tuple[Array, Array], rtol: float) -> tuple[Array, Array]:
     """Return packed multiplication operators of the features of both shapes, truncated to ``rtol`` unless it is 0."""
     if rtol:
         features = truncate_features(bases[0], features[0], bases[1], features[1], FEATURES_SHARE * rtol)
     packed_s, packed_t = (
-        multiplication_operators(b, F, threads=threads, single=_serves_in_single(rtol))
-        for b, F in zip(bases, features, strict=True)
+        multiplication_operators(b, F, single=_serves_in_single(rtol)) for b, F in zip(bases, features, strict=True)
     )
     return truncate_operators(packed_s, packed_t, rtol) if rtol else (packed_s, packed_t)
 
@@ -180,7 +177,6 @@ def orientation_pair(
     features: Features,
     k: int,
     size: float,
-    threads: int | None = None,
 ) -> tuple[Array, Array]:
     """Return operators ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, (k, k), of both shapes (Ren et al. 2018).
 
@@ -192,7 +188,7 @@ def orientation_pair(
     for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
         if all_of_it is not shape:
             F, basis = all_of_it.basis.reconstruct(to_numpy(basis.project(F))), all_of_it.basis
-        operators.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F, threads), features.source))
+        operators.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F), features.source))
     return scale_operators(operators, size)
 
 

@@ -67,34 +67,34 @@ def candidates(
     the points that the fits are made from; everything else is drawn with :func:`drawn_seed`.
     """
     assert config.search is not None
-    few, threads, seed = samples.few, config.threads, drawn_seed(rng)
+    few, seed = samples.few, drawn_seed(rng)
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     signs, weights = min(config.search.n_sign_functions, functions - 1), distinct_weights(WEIGHTS, few)
-    found = refine_coarse(sign_inits(signs, few, weights[:_QUICK]), few, functions, threads)
+    found = refine_coarse(sign_inits(signs, few, weights[:_QUICK]), few, functions)
     report(0.3)
     # What the user says of landmarks and points is heard in the fits.
     easy = len(pairs) == 0 and descriptors is None and early_exit(found)
     if not easy:
-        found += refine_coarse(sign_inits(signs, few, weights[_QUICK:]), few, functions, threads)
+        found += refine_coarse(sign_inits(signs, few, weights[_QUICK:]), few, functions)
         points = sample_pair_for_fit(source, target, FIT_POINTS, pairs, descriptors, rng)
         starts = kernel_inits(points, config, samples, seed) + extremity_inits(functions, few)
         report(0.5)
-        found += refine_coarse(starts, few, functions, threads)
+        found += refine_coarse(starts, few, functions)
     report(0.7)
     order = by_score(found)
     composed = 3  # of the best rough maps that differ, those that are composed with symmetries of the shapes
     best = distinct_maps(order, few.source, SCORE.distinct_distance, composed)
-    again = symmetry_inits(best, few, functions, threads)
+    again = symmetry_inits(best, few, functions)
     if not easy:
         C, values = order[0].functional_map, source.basis.eigenvalues
         kicks = [perturb(C, values, np.random.default_rng(seed + i)) for i in range(N_PERTURBATIONS)]
         again += [Start(f"kicked {i}", kick, False, WEIGHTS[0], STARTS[0]) for i, kick in enumerate(kicks)]
-    found += refine_coarse(again, few, functions, threads)
+    found += refine_coarse(again, few, functions)
     report(0.75)
     finalists = _FEWER if easy else 10
     chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, finalists)
-    refined = refine_fine(chosen, few, samples.whole, functions, threads)
+    refined = refine_fine(chosen, few, samples.whole, functions)
     report(1.0)
     return refined
 
@@ -112,7 +112,7 @@ def early_exit(found: list[Candidate]) -> bool:
     return max((c.quality.score for c in found if c.uses_descriptors), default=-math.inf) >= SCORE.early_exit_score
 
 
-def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads: int | None = None) -> list[Candidate]:
+def refine_coarse(starts: list[Start], pair: SamplePair, functions: int) -> list[Candidate]:
     """Refine the starts on few samples, up to 40 functions in steps of 4."""
     stop = min(40, functions)
     groups: dict[tuple[int, KernelWeights], list[Start]] = {}
@@ -121,13 +121,11 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads
         groups.setdefault((size, start.weights), []).append(start)
     found = []
     for (size, _), members in groups.items():
-        found += refine_batch(members, pair, (*range(size, stop, 4), stop), threads)
+        found += refine_batch(members, pair, (*range(size, stop, 4), stop))
     return found
 
 
-def refine_fine(
-    chosen: list[Candidate], few: SamplePair, pair: SamplePair, functions: int, threads: int | None = None
-) -> list[Candidate]:
+def refine_fine(chosen: list[Candidate], few: SamplePair, pair: SamplePair, functions: int) -> list[Candidate]:
     """Refine the chosen maps, found on ``few`` samples, on all, up to :data:`FINE` functions in steps of 5.
 
     All are refined with descriptors, and alternatives without as well.
@@ -144,19 +142,19 @@ def refine_fine(
             if weights[2:]:
                 matches = [match_of_map(c.points, few.source, few.target) for c in members]
                 starts = [replace(start, match=match) for start, match in zip(starts, matches, strict=True)]
-            found += refine_batch(starts, pair, (*range(size, stop, 5), stop), threads)
+            found += refine_batch(starts, pair, (*range(size, stop, 5), stop))
     return found
 
 
-def compose_with_symmetries(one: Candidate, samples: TwoLevelSamples, threads: int | None = None) -> list[Candidate]:
+def compose_with_symmetries(one: Candidate, samples: TwoLevelSamples) -> list[Candidate]:
     """Return refined candidates that start from a map composed with the near-symmetries of both shapes."""
     functions = min(side.samples.basis.functions.shape[1] for side in (samples.whole.source, samples.whole.target))
-    rough = refine_coarse(symmetry_inits([one], samples.few, functions, threads), samples.few, functions, threads)
+    rough = refine_coarse(symmetry_inits([one], samples.few, functions), samples.few, functions)
     chosen = distinct_maps(by_score(rough), samples.few.source, SCORE.rough_distance, _FEWER)
-    return refine_fine(chosen, samples.few, samples.whole, functions, threads) if chosen else []
+    return refine_fine(chosen, samples.few, samples.whole, functions) if chosen else []
 
 
-def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
+def rerefine(found: list[Candidate], pair: SamplePair) -> list[Candidate]:
     """Refine finished candidates once more, on samples of which something has changed."""
     size = len(found[0].functional_map)
     out: list[Candidate] = []
@@ -165,22 +163,20 @@ def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = Non
         starts = [
             Start(c.name, c.functional_map, uses, weights, fit=c.fit) for c in found if c.uses_descriptors == uses
         ]
-        out += refine_batch(starts, pair, (max(size // 2, 2), size), threads) if starts else []
+        out += refine_batch(starts, pair, (max(size // 2, 2), size)) if starts else []
     return out
 
 
-def refine_batch(
-    starts: list[Start], pair: SamplePair, sizes: tuple[int, ...], threads: int | None = None
-) -> list[Candidate]:
+def refine_batch(starts: list[Start], pair: SamplePair, sizes: tuple[int, ...]) -> list[Candidate]:
     """Refine maps of the same weights on a pair of samples, in steps of these ``sizes``, and score them."""
     bases = pair.source.samples.basis, pair.target.samples.basis
     maps = np.stack([start.functional_map[: sizes[0], : sizes[0]] for start in starts])
     cost = pair.matching_cost(*starts[0].weights, matches=[start.match for start in starts])
-    refined = zip(starts, *batched_zoomout(maps, *bases, sizes, cost, threads, pair.solver), strict=True)
-    return score_maps([replace(start, functional_map=C, points=at) for start, C, at in refined], pair, threads)
+    refined = zip(starts, *batched_zoomout(maps, *bases, sizes, cost, pair.solver), strict=True)
+    return score_maps([replace(start, functional_map=C, points=at) for start, C, at in refined], pair)
 
 
-def score_maps(found: Sequence[Start | Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
+def score_maps(found: Sequence[Start | Candidate], pair: SamplePair) -> list[Candidate]:
     """Return maps as candidates, with their quality on a pair of samples; points that are not known are sought."""
     functions, evidence = pair.source.samples.basis.functions, pair.landmark_evidence
 
@@ -191,14 +187,14 @@ def score_maps(found: Sequence[Start | Candidate], pair: SamplePair, threads: in
         quality = map_quality(C, pair.source, pair.target, at)
         return Candidate(one.name, C, at, quality, one.uses_descriptors, errors, fit=one.fit)
 
-    return parallel(judge, found, threads)
+    return parallel(judge, found)
 
 
 def sample_points(C: np.ndarray, pair: SamplePair) -> np.ndarray:
     """Return the source sample ``(q_t,)`` of each target sample by ``C (k_t, k_s)``."""
     k_t, k_s = C.shape
     images = pair.source.samples.basis.functions[:, :k_s] @ C.T
-    return nearest(pair.target.samples.basis.functions[:, :k_t], images, threads=1)
+    return nearest(pair.target.samples.basis.functions[:, :k_t], images)
 
 
 def by_score(found: list[Candidate]) -> list[Candidate]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from kfmaps._arrays import Array, like, seed_of, to_numpy
 from kfmaps._progress import Progress, StageTimer
-from kfmaps._threads import one_blas_thread
+from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional, to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
@@ -194,27 +194,27 @@ def refine_map(
         bases = (bases[0].to(config.device), bases[1].to(config.device))
     C, points, other = like(C, bases[0].functions), None, None
     back = None if back is None else like(back, C)
-    with one_blas_thread():
+    with limit_threads(config.threads), one_blas_thread():
         if raw or refine is None:
             with clock("point map"):
-                points = to_points(C, *bases, threads=config.threads)
+                points = to_points(C, *bases)
         if refine is None:
             assert points is not None
             found = Refined(C, points, ())
             if back is not None:
-                other = Refined(back, to_points(back, bases[1], bases[0], threads=config.threads), ())
+                other = Refined(back, to_points(back, bases[1], bases[0]), ())
         else:
-            options: dict[str, Any] = {"progress": partial(clock.report, "refinement"), "threads": config.threads}
+            report = partial(clock.report, "refinement")
             weight = getattr(refine, "descriptor_weight", 0)
             guide = {"guide": led or descriptor_guidance(source.shot, target.shot)} if weight else {}
             with clock("refinement"):
                 if back is not None and hasattr(refine, "bidirectional"):
-                    found, other = refine.bidirectional(C, back, *bases, **options, **guide)
+                    found, other = refine.bidirectional(C, back, *bases, progress=report, **guide)
                 else:
-                    found = refine(C, *bases, points=points, **options, **guide)
+                    found = refine(C, *bases, points=points, progress=report, **guide)
                     if back is not None:
                         swapped = {name: one and one.swapped() for name, one in guide.items()}
-                        other = refine(back, bases[1], bases[0], threads=config.threads, **swapped)
+                        other = refine(back, bases[1], bases[0], **swapped)
     ends = (None, None) if other is None else (other.target_to_source, to_numpy(other.functional_map))
     return PostprocessedMap(found.target_to_source, to_numpy(found.functional_map), points, clock.seconds, *ends)
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import Array, like, refuse, seed_of
 from kfmaps._progress import Progress, StageTimer
-from kfmaps._threads import one_blas_thread
+from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fmap.energy import Energy
@@ -96,7 +96,7 @@ def fit(
     clock = StageTimer(progress)
     seed = seed_of(rng)
     pairs = check_landmark_pairs(landmarks, source, target)
-    with one_blas_thread():
+    with limit_threads(config.threads), one_blas_thread():
         with clock("descriptors"):
             points = fit_points(source, target, config, pairs, descriptors, seed)
         with clock("energy"):
@@ -149,10 +149,7 @@ def robust_weights(
     small = [basis.truncate(k) for basis in bases]
     sides = (descriptors.source, descriptors.target)
     P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]
-    X = [
-        unpack_operators(multiplication_operators(b, D, threads=config.threads))
-        for b, D in zip(small, sides, strict=True)
-    ]
+    X = [unpack_operators(multiplication_operators(b, D)) for b, D in zip(small, sides, strict=True)]
     weights = config.weights
     against = weights.descriptors or 1.0
     data = RobustData(P[0], P[1], groups, Loss("squared"), X[0], X[1], weights.commutativity / against)

@@ -131,13 +131,13 @@ def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
     return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[points, :k], float)
 
 
-def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int, threads: int | None = None) -> list[Start]:
+def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int) -> list[Start]:
     """Return the ``best`` candidates composed with near-symmetries of both shapes.
 
     Whatever else a search has missed, the best map is compared with these, so that it is not called sure merely for
     want of a rival.
     """
-    own, theirs = (self_maps(side, functions, threads) for side in (pair.source, pair.target))
+    own, theirs = (self_maps(side, functions) for side in (pair.source, pair.target))
     composed = []
     for i, candidate in enumerate(best):
         C = candidate.functional_map
@@ -179,7 +179,7 @@ def kernel_inits(points: SampledPair, config: Config, samples: TwoLevelSamples, 
         return repeated_starts(named, samples.few)
 
     names = list(dict.fromkeys(fit.descriptor_set for fit in fits))
-    return [start for several in parallel(starts, names, config.threads) for start in several]
+    return [start for several in parallel(starts, names) for start in several]
 
 
 def drop_learned(config: Config) -> Config:
@@ -241,7 +241,7 @@ def fit_descriptor_set(
         formulation=replace(config.formulation, bidirectional=False),
     )
     features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
-    packed = compressed_operators(low, (features.source, features.target), max(config.operator_rtol, 1e-3), threads=1)
+    packed = compressed_operators(low, (features.source, features.target), max(config.operator_rtol, 1e-3))
     operators_of_features = [unpack_operators(p) for p in packed]
     turning: list[np.ndarray] = []
     known = [cube for cube in operators if cube is not None]

@@ -82,7 +82,7 @@ def landmark_errors(C: np.ndarray, functions_s: np.ndarray, found: LandmarkEvide
     ``C (k_t, k_s)``; ``functions_s (q_s, k)``: the source's basis at its samples.
     """
     k_t, k_s = C.shape
-    back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
+    back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T)
     return found.distances[np.arange(len(back)), back]
 
 

@@ -23,7 +23,7 @@ _MAX_DIFFERENCE = 0.3
 side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more."""
 
 
-def exchange_limbs(best: Candidate, pair: SamplePair, threads: int | None = None) -> list[Candidate]:
+def exchange_limbs(best: Candidate, pair: SamplePair) -> list[Candidate]:
     """Return the map with two alike limbs of the source exchanged, one candidate for each pair of them.
 
     The samples that are nearest to the two extremities on the target go where the exchanged extremities say; the others
@@ -44,7 +44,7 @@ def exchange_limbs(best: Candidate, pair: SamplePair, threads: int | None = None
         C = np.asarray(pair.solver(size) @ functions[points, :size], dtype=np.float64)
         starts.append(Start(f"{best.name}, two limbs exchanged", C, best.uses_descriptors, weights, match=one))
     half = max(size // 2, 2)
-    return refine_batch(starts, pair, (half, (half + size) // 2, size), threads)
+    return refine_batch(starts, pair, (half, (half + size) // 2, size))
 
 
 def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[ExtremityMatch]:
@@ -60,19 +60,17 @@ def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[Extre
     return found
 
 
-def compare_exchanged(
-    best: Candidate, pair: SamplePair, copies: ProxyCache, threads: int | None = None
-) -> list[Candidate]:
+def compare_exchanged(best: Candidate, pair: SamplePair, copies: ProxyCache) -> list[Candidate]:
     """Return the map and itself with the two limbs exchanged that come nearest to it, the better first.
 
     Both are judged by the same evidence. Only the map itself where no exchange scores nearly as well.
     """
     plain = best.unregistered
-    rivals = [c for c in exchange_limbs(plain, pair, threads) if c.score > plain.score - SCORE.max_behind]
-    judged = with_bending([plain, *rivals], copies, threads) if rivals else []
+    rivals = [c for c in exchange_limbs(plain, pair) if c.score > plain.score - SCORE.max_behind]
+    judged = with_bending([plain, *rivals], copies) if rivals else []
     if not judged:
         return [best]
     rival = max(judged[1:], key=lambda c: c.score)
     order = sorted([judged[0], rival], key=lambda c: -c.score)
     margin = order[0].score - order[1].score
-    return rerank_close(order, copies, threads) if margin < SCORE.shot_margin else order
+    return rerank_close(order, copies) if margin < SCORE.shot_margin else order

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import Array, seed_of
 from kfmaps._progress import Progress, StageTimer
+from kfmaps._threads import limit_threads
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.geometry.mesh import Mesh
@@ -61,15 +62,16 @@ def match(
         target.given_mesh if isinstance(target, Shape) else target,
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
-    seen = _part_suspected(task)
-    best, about = _match_part(task, seen)
-    may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
-    if best is None or (best.verdict != "sure" and may_be_whole):
-        # A body with holes is found either way, one of other proportions as a whole alone.
-        best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
-    if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
-        return best
-    return _compare_opposite(task, best, "target" if seen.which == "source" else "source")
+    with limit_threads(config.threads):
+        seen = _part_suspected(task)
+        best, about = _match_part(task, seen)
+        may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
+        if best is None or (best.verdict != "sure" and may_be_whole):
+            # A body with holes is found either way, one of other proportions as a whole alone.
+            best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
+        if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
+            return best
+        return _compare_opposite(task, best, "target" if seen.which == "source" else "source")
 
 
 def _likelier(first: Match | None, second: Match) -> Match:

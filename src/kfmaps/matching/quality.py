@@ -159,7 +159,7 @@ def sample_for_scoring(
     if len(shape.mesh.faces):
         operators = 50  # functions of the orientation operators that a probe keeps, also for fits
         low = Basis(shape.basis.eigenvalues, functions[:, :operators], shape.basis.mass)
-        orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES], threads=1)
+        orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES])
     local = None if shape.shot is None else shape.shot[samples.vertices]
     heat = log_heat_signature(samples.basis)
     return ShapeSamples(
@@ -207,7 +207,7 @@ def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
     """Return the areas (count,) that the first samples stand for when the others are given to the nearest of them."""
     functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
     embedding = functions / np.maximum(values, max(1e-6 * values[-1], eigenvalue_tolerance(basis)))
-    closest = nearest(embedding, embedding[:count], threads=1)
+    closest = nearest(embedding, embedding[:count])
     return np.bincount(closest, to_numpy(basis.mass), minlength=count)
 
 

@@ -74,7 +74,6 @@ def ranking(
     found: list[Candidate],
     samples: SamplePair,
     copies: ProxyCache,
-    threads: int | None = None,
     least: float = -np.inf,
 ) -> list[Candidate]:
     """Return the distinct ones of ``found``, best first; the first few also by how far the source must bend.
@@ -83,14 +82,14 @@ def ranking(
     """
     ranked = distinct(found, samples.source)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - SCORE.max_behind]
-    tried = with_bending(near, copies, threads)
+    tried = with_bending(near, copies)
     if not tried:
         return ranked
     # As bad as the worst, so that none that was not tried comes first.
     worst = max(c.deformation_energy for c in tried if c.deformation_energy is not None)
     order = in_order([*tried, *(replace(c, deformation_energy=worst) for c in ranked[len(near) :])])
     if len(near) > 1 and order[0].score - order[1].score < SCORE.shot_margin and order[0].score > least:
-        return rerank_close(order, copies, threads)
+        return rerank_close(order, copies)
     return order
 
 
@@ -99,7 +98,6 @@ def rerank_near_duplicates(
     found: list[Candidate],
     samples: SamplePair,
     copies: ProxyCache,
-    threads: int | None = None,
     distance: float = SCORE.rough_distance,
     behind: float = np.inf,
 ) -> list[Candidate]:
@@ -112,19 +110,19 @@ def rerank_near_duplicates(
     best = distinct_maps(in_order(found), samples.source, distance, closer)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
-    return in_order([*ranked, *with_bending(more, copies, threads)])
+    return in_order([*ranked, *with_bending(more, copies)])
 
 
-def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
+def with_bending(found: list[Candidate], copies: ProxyCache) -> list[Candidate]:
     """Return ``found`` with how far the coarse copies must bend, unknown where a shape has no copy to bend."""
     if not found or copies.coarse is None:
         return []
     pair = copies.coarse
-    energies = parallel(lambda c: deform(c.functional_map, pair).energy, found, threads)
+    energies = parallel(lambda c: deform(c.functional_map, pair).energy, found)
     return [replace(c, deformation_energy=energy) for c, energy in zip(found, energies, strict=True)]
 
 
-def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
+def rerank_close(order: list[Candidate], copies: ProxyCache) -> list[Candidate]:
     """Return the first two with how they look when bent; where they are close, bent with more points and patience too.
 
     A map that swaps front and back may come first by a margin that leaves no doubt to the score.
@@ -138,7 +136,7 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
         found = score_registered(found, finer) if close else found
         return replace(found, shot_error=registered_shot_error(found.functional_map, finer))
 
-    found = parallel(with_shot_error, order[:2], threads)
+    found = parallel(with_shot_error, order[:2])
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.
     middle = reference_values(found, np.mean)[0], reference_values(found, min)[1]
     return in_order([normalize_errors(c, middle) for c in found]) + order[2:]

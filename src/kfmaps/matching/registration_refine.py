@@ -79,7 +79,6 @@ def refine_by_registration(
     samples: SamplePair,
     copies: ProxyCache,
     landmarks: np.ndarray,
-    threads: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[list[Candidate], tuple[Candidate | SwappedRepair, ...]]:
     """Repair the best candidates between unlike shapes, and rank them again.
@@ -99,8 +98,8 @@ def refine_by_registration(
     setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs)
     near, rest = repairable(ranked, samples.source)
     begun = _begin(near, samples)
-    ended, behind = _repair_all(setting, begun, near, threads, progress)
-    tried = compared([*ended.values()], partial(_with_shot_error, setting), threads)
+    ended, behind = _repair_all(setting, begun, near, progress)
+    tried = compared([*ended.values()], partial(_with_shot_error, setting))
     # Those that were given up count as bent as badly as the worst.
     energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
     energy, (strain, shot_error) = max(energies, default=None), reference_values(tried, max)
@@ -117,7 +116,6 @@ def _repair_all(
     setting: RepairSetting,
     begun: list[tuple[Candidate, ExtremityVertices | None]],
     near: list[Candidate],
-    threads: int | None,
     progress: Progress | None,
 ) -> tuple[dict[int, Candidate], dict[int, Candidate]]:
     """Return the repaired candidates and those that are given up, by the number of what they began with.
@@ -145,7 +143,7 @@ def _repair_all(
         return made if made or alone is None else score_registered(alone, setting.proxies)
 
     report(0, 0.0)
-    first = parallel(begin_one, range(len(begun)), threads)
+    first = parallel(begin_one, range(len(begun)))
     states = {i: [c for c in (*near[i : i + 1], made) if c is not None] for i, made in enumerate(first)}
     better = {i: max(some, key=_quality) for i, some in states.items() if some}
     least = max(map(_quality, better.values())) - SCORE.repair_lag
@@ -153,7 +151,7 @@ def _repair_all(
     behind = {i: c for i, c in better.items() if i not in going}
     done[:] = 1.0
     done[going] = 0.5
-    ended = zip(going, parallel(end_one, going, threads), strict=True)
+    ended = zip(going, parallel(end_one, going), strict=True)
     return {i: c for i, c in ended if c is not None}, behind
 
 
@@ -176,7 +174,7 @@ def _repair_rounds(
             yield None
             return
         start = Start(old.name, found.functional_map[:FINE, :FINE], old.uses_descriptors, fit=old.fit)
-        new = score_maps([start], setting.samples, 1)[0]
+        new = score_maps([start], setting.samples)[0]
         yield replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
 
 
@@ -212,7 +210,7 @@ def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, 
     ]
     for one in unused_matches(likely, [match for match in known if match], PAIRED):
         C = paired_map(one, samples, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
-        candidate = score_maps([Start(f"{one}", C)], samples, 1)[0]
+        candidate = score_maps([Start(f"{one}", C)], samples)[0]
         begun.append((candidate, vertices_of_match(one, samples.source, samples.target)))
     return begun
 
@@ -240,15 +238,13 @@ def _with_shot_error(setting: RepairSetting, one: Candidate) -> Candidate:
     return replace(one, shot_error=registered_shot_error(one.functional_map, setting.proxies))
 
 
-def compared(
-    found: list[Candidate], with_shot_error: Callable[[Candidate], Candidate], threads: int | None = None
-) -> list[Candidate]:
+def compared(found: list[Candidate], with_shot_error: Callable[[Candidate], Candidate]) -> list[Candidate]:
     """Return the repaired candidates with their SHOT errors; those far behind have the worst that is computed."""
     found = [replace(c, shot_error=None) for c in found]
     reference = reference_values(found, min)
     scores = [normalize_errors(c, reference).score for c in found]
     near = [score > max(scores) - SCORE.hopeless_margin for score in scores]
-    seen = parallel(with_shot_error, [c for c, yes in zip(found, near, strict=True) if yes], threads)
+    seen = parallel(with_shot_error, [c for c, yes in zip(found, near, strict=True) if yes])
     worst = max((c.shot_error for c in seen if c.shot_error is not None), default=None)
     rest = iter(seen)
     return [next(rest) if yes else replace(c, shot_error=worst) for c, yes in zip(found, near, strict=True)]

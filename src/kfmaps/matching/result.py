@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kfmaps._arrays import InvalidInput, check, like, refuse
+from kfmaps._threads import limit_threads
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
@@ -265,7 +266,8 @@ class Match:
             guidance = descriptor_guidance(pair.source.shot, pair.target.shot)
             columns = guidance and guidance.embedding_columns(weight, *bases)
         faces = pair.source.mesh.faces
-        return pair.place(to_precise_map(self.functional_map, *bases, faces, self.config.threads, columns))
+        with limit_threads(self.config.threads):
+            return pair.place(to_precise_map(self.functional_map, *bases, faces, columns))
 
     def precise_inverse(self) -> PointMap:
         """Return a point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.

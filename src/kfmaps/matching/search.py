@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import Array, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
-from kfmaps._threads import parallel
+from kfmaps._threads import limit_threads, parallel
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
 from kfmaps.fmap.convert import to_points
@@ -152,35 +152,38 @@ def search_map(
     given = seed_of(rng)
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
-    everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, given, probes), pairs)
-    report("candidates", 0.1)
-    own = user_descriptors(source, target, config.descriptors, descriptors)
-    alone: list[Candidate] = []
-    if len(pairs):
-        half = _candidates_between(report, 0.1, 0.5)
-        alone = without_landmarks(source, target, config, everything, given, descriptors=own, report=half)
+    with limit_threads(config.threads):
+        everything = two_level_samples(
+            source, target, _search_samples(source, target, config, pairs, given, probes), pairs
+        )
+        report("candidates", 0.1)
+        own = user_descriptors(source, target, config.descriptors, descriptors)
+        alone: list[Candidate] = []
+        if len(pairs):
+            half = _candidates_between(report, 0.1, 0.5)
+            alone = without_landmarks(source, target, config, everything, given, descriptors=own, report=half)
 
-    none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
-    evidence = everything.whole.landmark_evidence
-    base = _Search(source, target, config, pairs, evidence, none, everything, copies, [], [], "preserving")
+        none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
+        evidence = everything.whole.landmark_evidence
+        base = _Search(source, target, config, pairs, evidence, none, everything, copies, [], [], "preserving")
 
-    def search_with(wrong: np.ndarray) -> _Search:
-        kept = drop_landmarks(everything, wrong) if wrong.any() else everything
-        rest = _candidates_between(report, 0.5 if len(pairs) else 0.1, 0.9)
-        found: list[Candidate] = []
-        if not len(pairs) or not wrong.all():
-            left = pairs[~wrong]
-            found = candidates(source, target, config, kept, given, landmarks=left, descriptors=own, report=rest)
-        free = score_maps(alone, kept.whole, config.threads) if alone else []
-        return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
+        def search_with(wrong: np.ndarray) -> _Search:
+            kept = drop_landmarks(everything, wrong) if wrong.any() else everything
+            rest = _candidates_between(report, 0.5 if len(pairs) else 0.1, 0.9)
+            found: list[Candidate] = []
+            if not len(pairs) or not wrong.all():
+                left = pairs[~wrong]
+                found = candidates(source, target, config, kept, given, landmarks=left, descriptors=own, report=rest)
+            free = score_maps(alone, kept.whole) if alone else []
+            return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
-    state = search_with(none)
-    if len(pairs):
-        wrong, doubts = _contradicted_landmarks(state)
-        state = search_with(wrong) if wrong.any() else state
-        state = replace(state, doubts=(*state.doubts, *doubts))
-    state, retries = _improve_best(state, report)
-    return replace(_to_result(state, state.ranked[0], state.ranked[1:]), retries=retries, _search=state)
+        state = search_with(none)
+        if len(pairs):
+            wrong, doubts = _contradicted_landmarks(state)
+            state = search_with(wrong) if wrong.any() else state
+            state = replace(state, doubts=(*state.doubts, *doubts))
+        state, retries = _improve_best(state, report)
+        return replace(_to_result(state, state.ranked[0], state.ranked[1:]), retries=retries, _search=state)
 
 
 def _candidates_between(report: Progress, begin: float, end: float) -> Callable[[float], None]:
@@ -190,15 +193,15 @@ def _candidates_between(report: Progress, begin: float, end: float) -> Callable[
 
 def _improve_best(state: _Search, report: Progress) -> tuple[_Search, tuple[Candidate | SwappedRepair, ...]]:
     """Exchange alike limbs of the best map, and register the best maps of unlike surfaces; return the retries too."""
-    samples, copies, threads = state.samples.whole, state.copies, state.config.threads
+    samples, copies = state.samples.whole, state.copies
     if not _are_surfaces(samples):
         return state, ()
     state = _compare_exchanged(state)
     if state.ranked[0].quality.score >= SCORE.repair_score:
         return state, ()
-    ranked = rerank_near_duplicates(state.ranked, state.found, samples, copies, threads)
+    ranked = rerank_near_duplicates(state.ranked, state.found, samples, copies)
     kept = state.pairs[~state.wrong]
-    ranked, retries = refine_by_registration(ranked, samples, copies, kept, threads, report)
+    ranked, retries = refine_by_registration(ranked, samples, copies, kept, report)
     return replace(state, ranked=ranked), retries
 
 
@@ -224,7 +227,7 @@ def _search_samples(
     if probes is None or len(pairs):
         sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
         seed = drawn_seed(given)
-        a, b = parallel(lambda s: sample_for_scoring(s[0], rng=seed, landmarks=s[1]), sides, config.threads)
+        a, b = parallel(lambda s: sample_for_scoring(s[0], rng=seed, landmarks=s[1]), sides)
         probes = a, b
     assert config.search is not None
     if config.search.match_extremities:
@@ -239,14 +242,14 @@ def _are_surfaces(samples: SamplePair) -> bool:
 
 def _rank(state: _Search) -> _Search:
     """Rank the candidates; those near the best are registered too, where that may change which comes first."""
-    whole, copies, found, threads = state.samples.whole, state.copies, state.found, state.config.threads
-    ranked = ranking(found, whole, copies, threads)
+    whole, copies, found = state.samples.whole, state.copies, state.found
+    ranked = ranking(found, whole, copies)
     # Asked before a map is sought that deforms less: on a left and a right bone it may be a little below the limit.
     unduly = deforms_unduly(ranked[0])
     if ranked[0].deformation_energy is not None:
         behind = np.inf if unduly else SCORE.close_margin
         near = [c for c in found if map_distance(c, ranked[0], whole.source) <= SCORE.distinct_distance]
-        near = rerank_near_duplicates(ranked, near, whole, copies, threads, SCORE.duplicate_distance, behind)
+        near = rerank_near_duplicates(ranked, near, whole, copies, SCORE.duplicate_distance, behind)
         ranked = distinct_maps(near, whole.source, SCORE.distinct_distance)
     assert state.config.search is not None
     orientation = "reversing" if state.config.search.orientation == "reversing" else "preserving"
@@ -267,8 +270,7 @@ def _repair_best(state: _Search) -> _Search:
     if one is None:
         return state
     start = Start(best.name, one.functional_map[:FINE, :FINE], best.uses_descriptors, fit=best.fit)
-    threads = state.config.threads
-    made = with_bending(score_maps([start], samples, threads), copies, threads)[0]
+    made = with_bending(score_maps([start], samples), copies)[0]
     return replace(state, ranked=[made, *state.ranked[1:]]) if made.score > best.score else state
 
 
@@ -286,12 +288,12 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     if not _are_surfaces(samples.whole) or asked not in ("either", "auto"):
         return state
     other = mirrored_pair(samples.whole)
-    images, copies = reversed_best(state.found, other, config.threads), ProxyCache.of(state.source, state.target, other)
+    images, copies = reversed_best(state.found, other), ProxyCache.of(state.source, state.target, other)
     before = state.ranked[0].unregistered.score
     if not images or (asked == "auto" and not unduly and images[0].score < before + SCORE.mirror_gain):
         return state
     # A closer look raises no score by as much as would be needed.
-    ranked = ranking(images, other, copies, config.threads, state.ranked[0].score - SCORE.close_margin)
+    ranked = ranking(images, other, copies, state.ranked[0].score - SCORE.close_margin)
     image, energy = ranked[0], ranked[0].deformation_energy
 
     def gain(plain: _Search) -> float:
@@ -304,11 +306,11 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     better = gain(state)
     if asked == "auto" and better > SCORE.mirror_gain:
         # A body that is nearly its own mirror image has a map that keeps orientation and is as good.
-        kept = compose_with_symmetries(image, samples, config.threads)
+        kept = compose_with_symmetries(image, samples)
         if kept:
             found = [*state.found, *kept]
             alone = [*state.alone, *kept] if state.alone else []
-            first = ranking(found, samples.whole, state.copies, config.threads)
+            first = ranking(found, samples.whole, state.copies)
             state = replace(state, found=found, alone=alone, ranked=first)
             better = gain(state)
     congruent = energy is not None and energy < SCORE.congruent_energy
@@ -322,7 +324,7 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
 def _compare_exchanged(state: _Search) -> _Search:
     """Compare the best map with itself with two alike limbs exchanged; the better leads, the other casts a doubt."""
     best, samples = state.ranked[0], state.samples.whole
-    order = compare_exchanged(best, samples, state.copies, state.config.threads)
+    order = compare_exchanged(best, samples, state.copies)
     if len(order) == 1:
         return state
     kept = order[0].functional_map is best.functional_map
@@ -337,8 +339,8 @@ def _contradicted_landmarks(state: _Search) -> tuple[np.ndarray, tuple[tuple[Can
     be called "sure" contradicts any number, unless a map that keeps to them fits the surfaces nearly as well; then
     neither is sure.
     """
-    best, whole, threads = state.ranked[0], state.samples.whole, state.config.threads
-    missed = ignore_landmarks(best, whole, threads).landmark_errors
+    best, whole = state.ranked[0], state.samples.whole
+    missed = ignore_landmarks(best, whole).landmark_errors
     limit = max_landmark_error(best.quality.score)
     wrong = rejected_landmarks(missed, limit)
     least = _without_evidence(best.unregistered).score - SCORE.repairable_margin
@@ -350,7 +352,7 @@ def _contradicted_landmarks(state: _Search) -> tuple[np.ndarray, tuple[tuple[Can
     first, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
     if verdict(first.quality.score, margin, first.deformation_energy) != "sure":
         return wrong, ()
-    missed_by_first = ignore_landmarks(first, whole, threads).landmark_errors
+    missed_by_first = ignore_landmarks(first, whole).landmark_errors
     far = missed_by_first > max_landmark_error(first.quality.score)
     if 2 * far.sum() > len(far):
         far = np.ones(len(far), dtype=bool)  # of sides that were exchanged those near the middle would mislead too
@@ -364,7 +366,7 @@ def _best_by_surface(state: _Search) -> list[Candidate]:
     """Return the distinct candidates that were found without landmarks, best first, ranked without them."""
     found = state.found if state.orientation == "reversing" else state.alone
     found = [replace(c, landmark_errors=np.zeros(0)) for c in found or state.found]
-    return ranking(found, state.samples.whole, state.copies, state.config.threads)
+    return ranking(found, state.samples.whole, state.copies)
 
 
 def _without_evidence(found: Candidate) -> Candidate:
@@ -384,7 +386,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     scores = [*(best.score - margin for _, margin in near), *(c.score for c in rest)][: len(others)]
     margin = max(min(margins, default=np.inf), 0.0)
     score = best.quality.score
-    evidence = score, margin, best.deformation_energy, backed_by(best, samples, config.threads)
+    evidence = score, margin, best.deformation_energy, backed_by(best, samples)
     rejected = state.wrong & (state.wrong.all() | still_missed(best, samples, state.evidence))
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in others]
     extremities = None
@@ -397,7 +399,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
         confidence=probability(*evidence),
         verdict=verdict(*evidence),
         scores=tuple(float(score) for score in (best.score, *scores)),
-        alternatives=alternative_maps(maps, *bases, config.threads),
+        alternatives=alternative_maps(maps, *bases),
         doubts=tuple(margin for _, margin in near)[: len(others)],
         landmarks=state.pairs[~rejected],
         rejected_landmarks=np.flatnonzero(rejected),
@@ -422,9 +424,9 @@ def _margin(best: Candidate, rival: Candidate) -> float:
     return best.score - rival.score
 
 
-def ignore_landmarks(found: Candidate, samples: SamplePair, threads: int | None = None) -> Candidate:
+def ignore_landmarks(found: Candidate, samples: SamplePair) -> Candidate:
     """Return the map as it is when landmarks have no say: how it misses them then tells of both."""
-    return rerefine([found], replace(samples, landmark_cost=None), threads)[0]
+    return rerefine([found], replace(samples, landmark_cost=None))[0]
 
 
 def still_missed(best: Candidate, samples: SamplePair, evidence: LandmarkEvidence | None) -> np.ndarray:
@@ -439,11 +441,11 @@ def still_missed(best: Candidate, samples: SamplePair, evidence: LandmarkEvidenc
     return errors > max_landmark_error(best.quality.score)
 
 
-def backed_by(best: Candidate, samples: SamplePair, threads: int | None = None) -> float:
+def backed_by(best: Candidate, samples: SamplePair) -> float:
     """Return :func:`kfmaps.matching.score.landmark_support` of a map by the landmarks, 0 without any."""
     if samples.landmark_evidence is None:
         return 0.0
-    errors = ignore_landmarks(best, samples, threads).landmark_errors
+    errors = ignore_landmarks(best, samples).landmark_errors
     return landmark_support(errors, samples.landmark_evidence.distances, to_numpy(samples.source.samples.basis.mass))
 
 
@@ -455,12 +457,10 @@ def without_landmarks(
         *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.few, samples.whole))
     )
     found = candidates(source, target, config, bare, rng, **more)
-    return score_maps(found, samples.whole, config.threads)
+    return score_maps(found, samples.whole)
 
 
-def alternative_maps(
-    maps: list[np.ndarray], source: Basis, target: Basis, threads: int | None = None
-) -> tuple[np.ndarray, ...]:
+def alternative_maps(maps: list[np.ndarray], source: Basis, target: Basis) -> tuple[np.ndarray, ...]:
     """Return point maps ``(n_t,)`` of functional maps that are not finished.
 
     Of a large source they name one of :data:`~kfmaps.fmap.zoomout.MAX_CANDIDATES` of its vertices, which lie nearer
@@ -471,7 +471,7 @@ def alternative_maps(
     if len(vertices) > MAX_CANDIDATES:
         vertices = stratified_vertices(source, MAX_CANDIDATES, 0)
         few = SampledBasis(source.eigenvalues, source.functions[vertices], source.mass[vertices])
-    return tuple(vertices[to_points(C, few, target, threads, exact=exact, probes=N_PROBE_FAST)] for C in maps)
+    return tuple(vertices[to_points(C, few, target, exact=exact, probes=N_PROBE_FAST)] for C in maps)
 
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
@@ -502,14 +502,14 @@ def adapt_registration(finish: Any, found: SearchResult) -> Any:
     return replace(finish, local_scaling=STRETCH)
 
 
-def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | None = None) -> list[Candidate]:
+def reversed_best(found: list[Candidate], mirrored: SamplePair) -> list[Candidate]:
     """Return the candidates as maps to the mirror image, best first; the best are refined with its descriptors.
 
     Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
     """
-    images = by_score(score_maps([replace(c, uses_descriptors=True) for c in found], mirrored, threads))
+    images = by_score(score_maps([replace(c, uses_descriptors=True) for c in found], mirrored))
     settled = 3  # maps to a mirror image that are worth a refinement of their own
-    return by_score(rerefine(images[:settled], mirrored, threads) + images[settled:])
+    return by_score(rerefine(images[:settled], mirrored) + images[settled:])
 
 
 def deforms_unduly(found: Candidate) -> bool:

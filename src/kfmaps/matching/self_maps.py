@@ -30,14 +30,14 @@ _MAX_SPREAD = 1.15
 _MIN_DISPLACEMENT = 0.1  # mean distance, in units of √area, by which it must move points; less is the identity
 
 
-def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
+def self_maps(of: ShapeSamples, functions: int) -> list[np.ndarray]:
     """Return the near-symmetries of one shape, those that it has kept or :func:`find_self_maps`.
 
     ``functions``: as many as the maps may have.
     """
     if of.turns is not None and of.turns.shape[1] == _size(of, functions):
         return list(of.turns)
-    return find_self_maps(of, functions, threads)
+    return find_self_maps(of, functions)
 
 
 def with_self_maps(of: ShapeSamples, few: ShapeSamples) -> ShapeSamples:
@@ -46,7 +46,7 @@ def with_self_maps(of: ShapeSamples, few: ShapeSamples) -> ShapeSamples:
     ``of`` and ``few``: all samples, and the first of them.
     """
     functions = few.samples.basis.functions.shape[1]
-    found, k = find_self_maps(few, functions, 1), _size(few, functions)
+    found, k = find_self_maps(few, functions), _size(few, functions)
     return replace(of, turns=np.array(found, dtype=np.float64).reshape(len(found), k, k))
 
 
@@ -55,7 +55,7 @@ def _size(of: ShapeSamples, functions: int) -> int:
     return min(40, functions, len(of.samples.vertices))
 
 
-def find_self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
+def find_self_maps(of: ShapeSamples, functions: int) -> list[np.ndarray]:
     """Return functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
     There are at most two that begin with signs and two that begin with turned pairs, the best of each first, whose
@@ -70,18 +70,18 @@ def find_self_maps(of: ShapeSamples, functions: int, threads: int | None = None)
 
     def coarse(maps: np.ndarray) -> np.ndarray:
         sizes = (*range(maps.shape[1], soon, 4), soon)
-        return batched_zoomout(maps, basis, basis, sizes, None, threads)[0]
+        return batched_zoomout(maps, basis, basis, sizes, None)[0]
 
     begun = coarse(np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)]))
     likely = np.sort(np.argsort(_changed(begun, of)[0], kind="stable")[:_MAX_CANDIDATES])
-    kept = _least_distorted(begun[likely], of, [], stop, threads)
+    kept = _least_distorted(begun[likely], of, [], stop)
     pairs = _turned_pairs(basis.eigenvalues[:soon])
     if pairs:
         begun = np.concatenate([coarse(maps) for maps in pairs])
         changed, moved = _changed(begun, of)
         # Most come back to the identity, which needs no more refinement.
         likely = np.flatnonzero((changed < _MAX_CHANGE) & (moved > _MIN_DISPLACEMENT))
-        kept += _least_distorted(begun[likely], of, kept, stop, threads)
+        kept += _least_distorted(begun[likely], of, kept, stop)
     return [C for C, _ in kept]
 
 
@@ -101,7 +101,7 @@ def _turned_pairs(eigenvalues: Array) -> list[np.ndarray]:
 
 
 def _least_distorted(
-    begun: np.ndarray, of: ShapeSamples, known: list[tuple[np.ndarray, np.ndarray]], stop: int, threads: int | None
+    begun: np.ndarray, of: ShapeSamples, known: list[tuple[np.ndarray, np.ndarray]], stop: int
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return the best of ``begun`` with ``stop`` functions, and the images of the samples by each, (q, 3).
 
@@ -110,7 +110,7 @@ def _least_distorted(
     if len(begun) == 0:
         return []
     basis = of.samples.basis
-    found, points = batched_zoomout(begun, basis, basis, (*range(begun.shape[1], stop, 4), stop), None, threads)
+    found, points = batched_zoomout(begun, basis, basis, (*range(begun.shape[1], stop, 4), stop), None)
     judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
     kept: list[tuple[np.ndarray, np.ndarray]] = []
     for i in np.argsort(judged, kind="stable"):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -90,7 +90,7 @@ def alternating_registration(
     """
     a, b = on.copies
     k = min(*(len(basis.eigenvalues) for basis in on.bases), _REFINE.stop)
-    refine = partial(replace(_REFINE, stop=k, start=min(_REFINE.start, k)), threads=1)  # maps are repaired side by side
+    refine = replace(_REFINE, stop=k, start=min(_REFINE.start, k))
     here, marks = led and led.at(a.vertices, b.vertices), on.nearest(landmarks)
     found = refine(C, *on.bases, guide=here)
     for _ in range(_ROUNDS):

@@ -93,7 +93,7 @@ def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndar
     images = to_numpy(pair.source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(pair.target.basis.functions)[b.vertices, :k_t])
     forth, back = (
-        way.once((k_t, C.tobytes()), lambda places=places: nearest(*places, threads=1))
+        way.once((k_t, C.tobytes()), lambda places=places: nearest(*places))
         for way, places in ((pair.forth, (rows, images)), (pair.back, (images, rows)))
     )
     return (pair.forth, forth), (pair.back, back)
@@ -139,4 +139,4 @@ def _shot_difference(samples: SurfaceSamples, other: Mesh) -> float:
 
 
 def _descriptors(mesh: Mesh, at: np.ndarray) -> np.ndarray:
-    return shot(mesh, 0.2, samples=5000, at=at, threads=1)  # a foot or a head and what it sits on
+    return shot(mesh, 0.2, samples=5000, at=at)  # a foot or a head and what it sits on

@@ -12,7 +12,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
-from kfmaps._threads import available_cores, one_blas_thread
+from kfmaps._threads import n_threads, one_blas_thread
 from kfmaps.geometry.eigen.factorization import Map, SparseMatrix, factorize, fill_order
 from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
 
@@ -29,7 +29,7 @@ _LOOSE_SHIFT = 10.0  # shift of a loose search, in units of the usual one
 
 
 THREADED = 50_000
-"""Rows from which threads pay."""
+"""Rows from which Python threads pay, for solves and tall products."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,6 @@ def smallest_eigenpairs(
     *,
     tolerance: float = EXACT,
     rng: int | np.random.Generator = 0,
-    threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Eigenpairs:
     """Return the ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
@@ -86,9 +85,6 @@ def smallest_eigenpairs(
         angle; where that does not serve the pairs are found to 1e-10.
     rng : int or numpy.random.Generator
         Draws the start vectors.
-    threads : int, optional
-        Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core. BLAS is held
-        to one.
     progress : callable, optional
         Told about how much is done, from 0 to 1, as the blocks of the basis grow.
 
@@ -107,7 +103,7 @@ def smallest_eigenpairs(
     matrix, mass = _check_pencil(stiffness, mass)
     check_count(k, "k", 1, len(mass))
     check_positive(tolerance, "tolerance")
-    with one_blas_thread(), _map_of_threads(len(mass), threads) as each:
+    with one_blas_thread(), _map_of_threads(len(mass)) as each:
         return _solve(matrix, mass, k, tolerance, rng, each, progress)
 
 
@@ -129,9 +125,9 @@ def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array,
 
 
 @contextmanager
-def _map_of_threads(rows: int, threads: int | None) -> Iterator[Map]:
+def _map_of_threads(rows: int) -> Iterator[Map]:
     """``map``, or that of a pool of threads where these pay."""
-    if (workers := threads or available_cores()) > 1 and rows >= THREADED:
+    if (workers := n_threads()) > 1 and rows >= THREADED:
         with ThreadPoolExecutor(workers) as pool:
             yield pool.map
     else:

@@ -120,7 +120,7 @@ def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) ->
         return [one for one in placed if float(np.median(off[each, one.placed.match])) > apart]
 
     scales = [scale * ratio for ratio in (_SCALE_RATIOS[:1] if pair.fixed_scale else _SCALE_RATIOS)]
-    return [one for some in parallel(place, scales, pair.threads) for one in some]
+    return [one for some in parallel(place, scales) for one in some]
 
 
 def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
@@ -134,7 +134,7 @@ def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
         similarity = shot_similarity(pair, scale, params)
         begun = [*place_by_beams(pair, scale, similarity), place_by_relaxation(pair, scale, similarity, params)]
         placed = [place_all(pair, Placement(scale, params, one, similarity)) for one in begun]
-        found += parallel(lambda one: make_candidate(one, pair), placed, pair.threads)
+        found += parallel(lambda one: make_candidate(one, pair), placed)
     order = sorted(found, key=lambda one: -one.score)
     return [_place_again(one, pair) for one in select_distinct(order, _differ, _MOST_AT_SCALE)]
 

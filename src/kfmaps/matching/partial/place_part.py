@@ -90,7 +90,7 @@ def place_part(
         for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
     ]
     small = None if both_partial or ratio is None or not _SMALL[0] < ratio < _SMALL[1] else ratio
-    pair = PartPair(samples[0], samples[1], fixed, config.threads, both_partial, small)
+    pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
     report(0.15)
     scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER_SCALES if both_partial else ())]
     if not fixed and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
@@ -143,12 +143,12 @@ def _scales_differ(one: Placement, other: Placement) -> bool:
 def _likely_placements(pair: PartPair, scales: list[float], count: int) -> list[Placement]:
     """The placements of all samples that are worth a registration, by relaxation and by beam searches."""
     rough, beams = candidate_placements(pair, scales, count)
-    settled = parallel(lambda one: settle(pair, one), [*rough, *beams], pair.threads)
+    settled = parallel(lambda one: settle(pair, one), [*rough, *beams])
     # Few samples of a beam search were placed by their descriptors: its score is too low before registration.
     likely: list[Placement] = []
     for some, most in ((settled[: len(rough)], count + 1), (settled[len(rough) :], 2)):
         best = sorted(some, key=lambda one: -one.score)[:most]
-        again = parallel(lambda one: settle_again(pair, one), best, pair.threads)
+        again = parallel(lambda one: settle_again(pair, one), best)
         likely += sorted(again, key=lambda one: -one.score)
     return select_distinct(likely, _placed_differently, count + 3)
 

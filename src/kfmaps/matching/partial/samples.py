@@ -51,26 +51,25 @@ class PartSamples(PartSurface):
         """The vertices that are landmarks, (l,)."""
         return self.samples[: self.n_landmarks]
 
-    def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
+    def shot(self, radius: float) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
         if radius not in self.descriptors:
             # Support points of SHOT, half of those that a descriptor at every vertex deserves. With fewer in large
             # balls a person with holes was placed wrongly.
             support = 10_000
-            found = shot(self.mesh, radius, at=self.samples, samples=support, threads=threads)
+            found = shot(self.mesh, radius, at=self.samples, samples=support)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
 
 
 @dataclass(frozen=True, eq=False)
 class PartPair:
-    """A part and the whole, whether the scale of the part is known, the threads to place it with, whether the whole may
-    lack something too, and √area of a small part over that of the whole in their files."""
+    """A part and the whole, whether the scale of the part is known, whether the whole may lack something too, and √area
+    of a small part over that of the whole in their files."""
 
     part: PartSamples
     whole: PartSamples
     fixed_scale: bool = False
-    threads: int | None = None
     both_partial: bool = False
     small_scale: float | None = None
 

@@ -127,7 +127,7 @@ def try_scales(pair: PartPair, scales: Sequence[float], params: RelaxationParams
 def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
     """Place all samples by beam searches at each of ``scales``; those of the three best scales, best first."""
     found = _at_scales(pair, scales, TRIALS[0], lambda scale, alike: place_by_beams(pair, scale, alike))
-    return parallel(lambda one: place_all(pair, one), [one for some in found[:3] for one in some], pair.threads)
+    return parallel(lambda one: place_all(pair, one), [one for some in found[:3] for one in some])
 
 
 def _at_scales(
@@ -138,13 +138,13 @@ def _at_scales(
 ) -> list[list[Placement]]:
     """The placements at each of ``scales``, the best supported first."""
     for radius in params.radii:
-        pair.whole.shot(radius, pair.threads)
+        pair.whole.shot(radius)
 
     def at(scale: float) -> list[Placement]:
         similarity = shot_similarity(pair, scale, params)
         return [Placement(scale, params, one, similarity) for one in place(scale, similarity)]
 
-    return sorted(parallel(at, list(scales), pair.threads), key=lambda some: -some[0].placed.support)
+    return sorted(parallel(at, list(scales)), key=lambda some: -some[0].placed.support)
 
 
 def refine_placement(pair: PartPair, one: Placement) -> Placement:
