@@ -991,7 +991,7 @@ MUTANTS = tuple(
         ("rows.append(values[part.to_original])", "rows.append(values)", "test_cleaning -k left_out_change"),
         ("signs[worst] *= -1", "signs[worst] *= 1", "test_collection -k handedness"),
         ("csr_array(eye_array(size) - whole)", "csr_array(eye_array(size) + whole)", "test_collection -k frames_of"),
-        ("found[:, 0].astype(np.int64) - 1, weights", "found[:, 0].astype(np.int64), weights", "test_transfer_parts"),
+        ("table[:, 0].astype(np.int64) - 1, weights", "table[:, 0].astype(np.int64), weights", "test_transfer_parts"),
         # the time that a batch still takes
         ("heapq.heapreplace(free, free[0] + seconds)", "heapq.heapreplace(free, seconds)", "test_batch_found -k time"),
         ("max(lasts[number] - seconds, lasts[number] / 2)", "lasts[number] - seconds", "test_batch_found -k time"),

@@ -84,7 +84,7 @@ def poses() -> kfmaps.datasets.ExamplePair:
 def _coarse_pictures() -> Iterator[None]:
     """Divide fewer triangles for pictures, whose drawing takes most of the time of what draws one."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("kfmaps.viz.surfaces._ENOUGH", 1000)
+        patch.setattr("kfmaps.viz.surfaces._MIN_TRIANGLES", 1000)
         yield
 
 

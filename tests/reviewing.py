@@ -48,10 +48,10 @@ def study(tmp_path: Path) -> Path:
 def serving(study: Path) -> Iterator[ReviewServer]:
     """The review page of a study, answering from another thread."""
     made = ReviewServer(study)
-    thread = threading.Thread(target=made.server.serve_forever)
+    thread = threading.Thread(target=made.serve_forever)
     thread.start()
     yield made
-    made.server.shutdown()
+    made.shutdown()
     thread.join()
     made.close()
 

@@ -217,9 +217,9 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
     kfmaps.view(tmp_path / "m.npz", (V, F), OTHER, output=tmp_path / "again.html", descriptors=False)
     kfmaps.render(tmp_path / "m.npz", MESH, OTHER, output=tmp_path / "pair.png")
     assert (tmp_path / "pair.png").read_bytes().startswith(b"\x89PNG")
-    with pytest.raises(InvalidInput, match="Give source="):
+    with pytest.raises(InvalidInput, match="source= in Python"):
         kfmaps.load_map(tmp_path / "m.npz").plot()
-    with pytest.raises(InvalidInput, match="Give source="):
+    with pytest.raises(InvalidInput, match="source= in Python"):
         kfmaps.render(shuffled.target_to_source)
     with pytest.raises(InvalidInput, match="equal length"):
         kfmaps.render(shuffled, truth=([0, 1], [0]))

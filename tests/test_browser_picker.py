@@ -50,14 +50,14 @@ def picker(
         matcher=a_matcher,
         map_output=tmp_path / "m.npz",
     )
-    thread = threading.Thread(target=serving.server.serve_forever)
+    thread = threading.Thread(target=serving.serve_forever)
     thread.start()
     opened = tmp_path_factory.mktemp("opened") / "page.html"
-    opened.write_text(forwarding_page(serving.server.address), encoding="utf-8")
+    opened.write_text(forwarding_page(serving.address), encoding="utf-8")
     browser.open(opened.as_uri())
     yield browser
     browser.leave()
-    serving.server.shutdown()
+    serving.shutdown()
     thread.join()
     serving.close()
 

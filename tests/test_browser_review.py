@@ -21,7 +21,7 @@ def test_a_specimen_is_reviewed_in_a_browser(browser: Browser, study: Path, serv
             "return [...document.querySelectorAll('#pairs tbody tr')].map((row) => row.cells[2].textContent)"
         )
 
-    browser.open(serving.server.address)
+    browser.open(serving.address)
     assert "2 of 5 flagged" in browser.text("facts")
     browser.element("#next").click()
     assert browser.text("readout").startswith("b: low confidence")

@@ -22,7 +22,7 @@ from commandline import Ran, run, shapes, start
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
 from kfmaps.cli import main as cli
 from kfmaps.cli.main import COMMANDS
-from kfmaps.cli.options import _COMMON, meets
+from kfmaps.cli.options import _PANEL, meets
 
 HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "distributed")
 
@@ -97,7 +97,7 @@ def test_a_command_has_few_options_and_speaks_json(name: str) -> None:
     panels = [getattr(p, "rich_help_panel", None) for p in LEAVES[name].params if p.opts[0].startswith("-")]
     assert panels.count(None) <= 10 + 1  # --help
     assert panels.count("Settings") <= 10
-    assert set(panels) <= {None, "Settings", _COMMON}
+    assert set(panels) <= {None, "Settings", _PANEL}
 
 
 def test_required_verdicts() -> None:

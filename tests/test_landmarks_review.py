@@ -47,7 +47,7 @@ def test_a_study_that_is_read_and_written_again_is_the_same(study: Path) -> None
 
 
 def test_the_page_begins_with_a_flagged_specimen(serving: ReviewServer) -> None:
-    client = Client(serving.server)
+    client = Client(serving)
     data = page_data(client)
     assert (data["source"]["name"], data["target"]["name"]) == ("a", "b")
     assert [one["flag"] for one in data["landmarks"]] == ["", "low confidence", "", "", "no counterpart"]
@@ -66,7 +66,7 @@ def test_corrections_come_into_all_tables(study: Path, serving: ReviewServer) ->
     face, weights = 17, [0.5, 0.25, 0.25]
     changes = [{"name": "b", "face": face, "weights": weights}, {"name": "a", "checked": True}, {"name": "c"}]
     scores = (study / "shape" / "procrustes.csv").read_bytes()
-    answer = Client(serving.server).post("save", {"specimen": "b", "changes": changes})
+    answer = Client(serving).post("save", {"specimen": "b", "changes": changes})
     assert (answer.status, answer.json["saved"], answer.json["flags"]) == (200, 3, 1)
     at = weights @ mesh.vertices[mesh.faces[face]]
     rows = rows_of(study, "b")
@@ -82,7 +82,7 @@ def test_corrections_come_into_all_tables(study: Path, serving: ReviewServer) ->
     markups = json.loads((study / "landmarks" / "b.mrk.json").read_text())["markups"][0]["controlPoints"]
     assert [one["selected"] for one in markups] == [True, True, True, True, False]
     assert read_corrections(study)["b"]["a"][1] == "checked"
-    Client(serving.server).post("save", {"specimen": "b", "changes": [{"name": "e", "face": 0, "weights": [1, 0, 0]}]})
+    Client(serving).post("save", {"specimen": "b", "changes": [{"name": "e", "face": 0, "weights": [1, 0, 0]}]})
     assert sorted(read_corrections(study)["b"]) == ["a", "b", "c", "e"]
 
 
@@ -102,12 +102,12 @@ def test_corrections_come_into_all_tables(study: Path, serving: ReviewServer) ->
 )
 def test_what_is_no_correction_is_refused(study: Path, serving: ReviewServer, request_: Any) -> None:
     before = tables(study)
-    assert Client(serving.server).post("save", request_).status == 400
+    assert Client(serving).post("save", request_).status == 400
     assert tables(study) == before
 
 
 def test_foreign_requests_save_nothing(study: Path, serving: ReviewServer) -> None:
-    before, client = tables(study), Client(serving.server)
+    before, client = tables(study), Client(serving)
     request = {"specimen": "b", "changes": [{"name": "a"}]}
     assert client.post("save", request, Origin="https://evil.example").status == 403
     client.path = "/guess/"

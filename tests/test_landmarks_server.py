@@ -45,14 +45,14 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
     def start(**changes: Any) -> Client:
         settings = {"names": ("a", "b"), "output": tmp_path / "pairs.txt"} | changes
         serving = PickerServer(SOURCE, TARGET, **settings)
-        thread = threading.Thread(target=serving.server.serve_forever)
+        thread = threading.Thread(target=serving.serve_forever)
         thread.start()
         running.append((serving, thread))
-        return Client(serving.server)
+        return Client(serving)
 
     yield start
     for serving, thread in running:
-        serving.server.shutdown()
+        serving.shutdown()
         thread.join()
         serving.close()
 

@@ -74,7 +74,7 @@ def test_nothing_is_clipped_and_the_background_stays_white() -> None:
 
 
 def test_no_seams_between_faces(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kfmaps.viz.surfaces._ENOUGH", 24000)
+    monkeypatch.setattr("kfmaps.viz.surfaces._MIN_TRIANGLES", 24000)
     mesh = ball()
     picture = drawn(mesh, painted(mesh, BLUE), shading=False)
     y, x = np.mgrid[-1:1:200j, -1:1:200j]

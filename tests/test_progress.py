@@ -14,17 +14,17 @@ from collecting import CONFIG
 from conftest import blob
 from kfmaps.batch.progress import RunReport, RunStatus
 from kfmaps.batch.results import Result
-from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, standing
+from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, stage_line
 from kfmaps.shape import prepare
 
 
 def test_what_is_left_follows_from_what_is_done() -> None:
     """A quarter done in ten seconds leaves thirty; nothing done leaves what such a stage took before."""
-    assert standing("solve", 0, 10) == "solve: 10 s so far"
-    assert standing("solve", 0, 10, before=25) == "solve: 10 s so far, about 15 s left"
-    assert standing("solve", 0, 30, before=25) == "solve: 30 s so far"
-    assert standing("candidates", 0.25, 10) == "candidates: 25 % done, 10 s so far, about 30 s left"
-    assert standing("energy", 0, 400) == "energy: 7 min so far"
+    assert stage_line("solve", 0, 10) == "solve: 10 s so far"
+    assert stage_line("solve", 0, 10, before=25) == "solve: 10 s so far, about 15 s left"
+    assert stage_line("solve", 0, 30, before=25) == "solve: 30 s so far"
+    assert stage_line("candidates", 0.25, 10) == "candidates: 25 % done, 10 s so far, about 30 s left"
+    assert stage_line("energy", 0, 400) == "energy: 7 min so far"
 
 
 def test_a_long_stage_is_told_of_without_a_terminal(
@@ -45,11 +45,11 @@ def test_a_long_stage_is_told_of_without_a_terminal(
         raise AssertionError(f"{text!r} is not in {said!r}")
 
     lines = Lines(silence=0.1)
-    lines.tell("eigenfunctions of source", 0)
+    lines.update("eigenfunctions of source", 0)
     clock[0] = 40
     wait_for("eigenfunctions of source: 40 s so far\n")
-    lines.tell("eigenfunctions of source", 1)
-    lines.tell("eigenfunctions of target", 0)
+    lines.update("eigenfunctions of source", 1)
+    lines.update("eigenfunctions of target", 0)
     clock[0] = 50
     wait_for("eigenfunctions of target: 10 s so far, about 30 s left\n")
     lines.close()
@@ -113,8 +113,8 @@ def test_a_notebook_gets_bars_of_its_own(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
     monkeypatch.setitem(sys.modules, "IPython.display", display)
     notebook = _Notebook()
-    notebook.tell("a<b", 0.0)
-    notebook.tell("a<b", 1.0)
+    notebook.update("a<b", 0.0)
+    notebook.update("a<b", 1.0)
     notebook.close()
     assert 'value="1.000"' in shown[-1]
     assert "a&lt;b" in shown[-1]

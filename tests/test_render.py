@@ -33,7 +33,7 @@ from kfmaps.viz import (
     save_figure,
     true_views,
 )
-from kfmaps.viz.camera import _LIKENESS, fit_rotation
+from kfmaps.viz.camera import _MIN_CORRELATION, fit_rotation
 from kfmaps.viz.matches import _LABEL
 
 THRESHOLDS = np.linspace(0, 0.25, 11)
@@ -183,7 +183,7 @@ def test_views_follow_the_truth_and_not_the_map() -> None:
     back_for_front = np.asarray(KDTree(mesh.vertices).query(turned.vertices)[1])
     assert following_view(seen, mesh, mesh, back_for_front) is seen
     turn, alike = fit_rotation(_centred(mesh.vertices[back_for_front]), _centred(mesh.vertices))
-    assert alike > _LIKENESS, "the map alone says that the camera should go round"
+    assert alike > _MIN_CORRELATION, "the map alone says that the camera should go round"
     assert np.trace(turn) < 0
     figure = match_figure(mesh, turned, nonsense, view=seen, target_view=followed)
     own, same = (ax.get_xlim() for ax in figure.axes[:2])

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps._progress import Progress
-from kfmaps.cli.evaluation import Truth, check_truth
+from kfmaps.cli.evaluation import Truth, check_truth, known_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
 from kfmaps.fmap import evaluate
@@ -24,11 +24,21 @@ from kfmaps.fmap.refine import Refined
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MeshFile, atomic_output, check_map, load_map
+from kfmaps.io import MeshFile, atomic_output, check_map, load_map, read_mesh_file
 from kfmaps.io import save_map as save_map
 from kfmaps.io.atomic import write_text
-from kfmaps.io.convert import LandmarksLike, MapLike, ShapeLike, TruthLike, as_landmarks, as_map, as_mesh, is_file
-from kfmaps.io.mapfile import map_mesh, map_mesh_file
+from kfmaps.io.convert import (
+    FileName,
+    LandmarksLike,
+    MapLike,
+    ShapeLike,
+    TruthLike,
+    as_landmarks,
+    as_map,
+    as_mesh,
+    is_file,
+)
+from kfmaps.io.mapfile import map_mesh_file
 from kfmaps.io.transfer import transfer as carried
 from kfmaps.matching import match as matching
 from kfmaps.matching.result import Match
@@ -37,6 +47,8 @@ from kfmaps.shape import prepare as prepared
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+_Truth = TruthLike | Truth | tuple[FileName, FileName]
 
 
 def match(
@@ -249,7 +261,7 @@ def render(
     target: ShapeLike | None = None,
     *,
     output: str | Path | None = None,
-    truth: TruthLike | Truth | None = None,
+    truth: _Truth | None = None,
     force: bool = False,
     **options: Any,
 ) -> Figure:
@@ -264,7 +276,7 @@ def render(
         Written there as well: .png, .svg or .pdf.
     truth : (n_t,) whole numbers or a tuple ((q,), (q,)) of them, optional
         The true source vertex of each target vertex, −1 where there is none; or corresponding vertices of the source
-        and of the target.
+        and of the target, or the two files of them.
     force : bool
         Whether an existing file is replaced.
     **options
@@ -281,14 +293,16 @@ def render(
     """
     from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
 
-    match, shapes = _map_and_shapes(map, source, target)
-    points = check_map(match, len(shapes[0].vertices), len(shapes[1].vertices), partial=True)
-    if truth is not None:
-        true_vertices = _truth(truth, shapes)
-        options.setdefault("errors", painted_errors(*shapes, points, true_vertices.source, true_vertices.target))
-        views = true_views(*shapes, true_vertices.source, true_vertices.target, options.get("view"))
+    match, files, _ = _map_and_shapes(map, source, target)
+    meshes = files[0].mesh, files[1].mesh
+    points = check_map(match, len(meshes[0].vertices), len(meshes[1].vertices), partial=True)
+    correspondences = _truth(truth, meshes)
+    if correspondences is not None:
+        pairs = correspondences.source, correspondences.target
+        options.setdefault("errors", painted_errors(*meshes, points, *pairs))
+        views = true_views(*meshes, *pairs, options.get("view"))
         options = {"target_view": views[1], **options, "view": views[0]}
-    figure = match_figure(*shapes, match, **options)
+    figure = match_figure(*meshes, match, **options)
     if output is not None:
         picture_format(output)
         with atomic_output(output, force) as temporary:
@@ -302,8 +316,8 @@ def view(
     target: ShapeLike | None = None,
     *,
     output: str | Path | None = None,
-    truth: TruthLike | Truth | None = None,
-    names: tuple[str, str] = ("source", "target"),
+    truth: _Truth | None = None,
+    names: tuple[str, str] | None = None,
     descriptors: bool = True,
     up: str | None = None,
     force: bool = False,
@@ -316,8 +330,8 @@ def view(
         As in :func:`render`.
     output : path, optional
         Write the page there and show nothing.
-    names : (str, str)
-        What the page calls the shapes.
+    names : (str, str), optional
+        Names of the shapes on the page; by default those of their files.
     descriptors : bool
         Whether to work out descriptors to show, which takes an eigensolve of each shape.
     up : {"x", "y", "z"}, optional
@@ -328,21 +342,43 @@ def view(
     Path or None
         The page: one file that needs no network; ``None`` where it is in a cell.
     """
-    from kfmaps.viz.result_pages import in_notebook, match_page, open_page, show_in_cell
+    from kfmaps.viz.result_pages import in_notebook, open_page, show_in_cell
 
-    match, shapes = _map_and_shapes(map, source, target)
-    source_file, path = MeshFile(shapes[0]), match.source_file.path if source is None else source
-    if is_file(path) and Path(path).is_file():
-        file = map_mesh_file(Path(path), match, "source", Path())
-        source_file = replace(file, mesh=shapes[0]) if len(file.mesh.faces) == len(shapes[0].faces) else source_file
-    true_vertices = None if truth is None else _truth(truth, shapes)
-    html = match_page(match, source_file, shapes[1], names, truth=true_vertices, descriptors=descriptors, up=up)
+    html, title = map_page(map, source, target, truth=truth, names=names, descriptors=descriptors, up=up)
     if output is not None:
         write_text(output, html, force)
         return Path(output)
     if in_notebook():
-        return show_in_cell(html, f"{names[0]} → {names[1]}")
+        return show_in_cell(html, title)
     return open_page(html)[0]
+
+
+def map_page(
+    map: MapLike,
+    source: ShapeLike | None = None,
+    target: ShapeLike | None = None,
+    *,
+    truth: _Truth | None = None,
+    identity: bool = False,
+    names: tuple[str, str] | None = None,
+    descriptors: bool = True,
+    up: str | None = None,
+) -> tuple[str, str]:
+    """Return the page of a map and its title; the arguments are those of :func:`view`.
+
+    ``identity``: whether the truth is that vertex i corresponds to vertex i.
+    """
+    from kfmaps.viz.result_pages import match_page
+
+    match, files, file_names = _map_and_shapes(map, source, target)
+    drawn, path = files[0], Path(match.source_file.path)
+    if source is None and hasattr(match, "source") and path.is_file():  # for the picture
+        file = map_mesh_file(path, match, "source", Path())
+        drawn = replace(file, mesh=drawn.mesh) if len(file.mesh.faces) == len(drawn.mesh.faces) else drawn
+    correspondences = _truth(truth, (drawn.mesh, files[1].mesh), identity)
+    names = names or file_names
+    html = match_page(match, drawn, files[1].mesh, names, truth=correspondences, descriptors=descriptors, up=up)
+    return html, f"{names[0]} → {names[1]}"
 
 
 def picture_html(match: Match, description: str) -> str:
@@ -364,35 +400,44 @@ def _telling(progress: bool | Progress | None) -> AbstractContextManager[Progres
     return nullcontext(progress or None)
 
 
-def _truth(truth: TruthLike | Truth, shapes: tuple[Mesh, Mesh]) -> Truth:
-    """Corresponding vertices of both shapes, of a truth as :func:`render` takes it."""
-    if isinstance(truth, Truth):
-        return truth
+def _truth(truth: _Truth | None, meshes: tuple[Mesh, Mesh], identity: bool = False) -> Truth | None:
+    """Return corresponding vertices of both shapes, from a truth as :func:`render` takes it."""
+    n_s, n_t = (len(mesh.vertices) for mesh in meshes)
+    if truth is None or isinstance(truth, Truth):
+        return known_truth(None, n_s, n_t, identity=True) if identity else truth
+    if isinstance(truth, tuple) and is_file(truth[0]) and is_file(truth[1]):
+        return known_truth((Path(truth[0]), Path(truth[1])), n_s, n_t, identity=identity)
     if not isinstance(truth, tuple):
-        points = check_map(truth, len(shapes[0].vertices), len(shapes[1].vertices), "truth", partial=True)
+        points = check_map(truth, n_s, n_t, "truth", partial=True)
         matched = np.flatnonzero(points >= 0)
         truth = points[matched], matched
     both = [check(np.asarray(part), "truth", shape=(None,), remedy="give vertex numbers") for part in truth]
     if len(both) != 2 or len(both[0]) != len(both[1]) or len(both[0]) == 0:
         got = " and ".join(str(len(part)) for part in both)
         raise refuse("truth", "two lists of equal length", got, "give corresponding vertices")
-    return check_truth(Truth(both[0], both[1]), *(len(mesh.vertices) for mesh in shapes))
+    return check_truth(Truth(both[0], both[1]), n_s, n_t)
 
 
 def _map_and_shapes(
     map: MapLike, source: ShapeLike | None, target: ShapeLike | None
-) -> tuple[Match, tuple[Mesh, Mesh]]:
-    """A map and its two shapes: as given, else the match's own, else those that the map's file names."""
+) -> tuple[Match, tuple[MeshFile, MeshFile], tuple[str, str]]:
+    """Return a map, its two shapes and their names: the given shapes, else the match's own or those that it names."""
     map_path = Path(map) if is_file(map) else Path()
-    map = load_map(map_path) if is_file(map) else map
-    meshes = []
+    match = load_map(map_path) if is_file(map) else map if isinstance(map, Match) else None
+    files, names = [], []
     for shape, side in ((source, "source"), (target, "target")):
-        if shape is not None:
-            meshes.append(as_mesh(shape, side))
-        elif hasattr(map, side):
-            meshes.append(getattr(map, side))
-        elif isinstance(map, Match):
-            meshes.append(map_mesh(None, map, side, map_path, f"give {side}="))
-        else:
+        path = Path(shape) if is_file(shape) else None
+        if path is None and shape is not None:
+            files.append(MeshFile(as_mesh(shape, side)))
+        elif path is None and hasattr(match, side):
+            files.append(MeshFile(getattr(match, side)))
+        elif match is not None:
+            files.append(map_mesh_file(path, match, side, map_path))
+        elif path is None:
             raise refuse(side, "the shape", "a map alone", f"give {side}=")
-    return as_map(map, meshes[0]), (meshes[0], meshes[1])
+        else:
+            files.append(read_mesh_file(path))
+        named = None if match is None else getattr(match, f"{side}_file").path
+        names.append(Path(path or named or side).stem)
+    match = match or as_map(map, files[0].mesh)
+    return match, (files[0], files[1]), (names[0], names[1])

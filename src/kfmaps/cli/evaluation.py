@@ -27,20 +27,17 @@ from kfmaps.matching.result import Match
 THRESHOLDS = np.linspace(0.0, 0.25, 251)
 """Errors at which a curve is evaluated, in √area, up to the limit of the area under the curve."""
 
-_NEIGHBOURS = 1.5
-"""Distance from a listed vertex, in mean edges of the whole, up to which others count as common too."""
+_MAX_EDGES = 1.5
+"""Distance from a listed vertex, in mean edge lengths of the whole, up to which other vertices count as common."""
 
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """Corresponding vertices ``source (q,)`` and ``target (q,)``, and those of the source's mirror image if known.
+    """Corresponding vertices of two shapes."""
 
-    ``mirrored (q,)`` are the target's vertices under the map that swaps left and right.
-    """
-
-    source: np.ndarray
-    target: np.ndarray
-    mirrored: np.ndarray | None = None
+    source: np.ndarray  # (q,)
+    target: np.ndarray  # (q,)
+    mirrored: np.ndarray | None = None  # (q,): vertices of the target with left and right swapped
 
 
 def known_truth(
@@ -53,28 +50,25 @@ def known_truth(
 ) -> Truth | None:
     """Return the truth that the options or files give; ``None`` when they give none.
 
-    ``files``: lists of vertices of source and target, line k of one corresponding to line k of the other; ``n_s`` and
-    ``n_t``: vertices of the shapes; ``symmetric``: the same for the target with left and right swapped; ``identity``:
-    vertex i corresponds to vertex i.
+    ``files``: lists of corresponding vertices of source and target; ``n_s`` and ``n_t``: numbers of vertices;
+    ``symmetric``: file of the target's vertices with left and right swapped; ``identity``: whether vertex i corresponds
+    to vertex i.
     """
     if identity:
         if files is not None or symmetric is not None:
-            raise refuse("--identity", "one truth", "files of the truth beside it", "leave one out")
+            raise refuse("--identity", "one truth", "files of the truth as well", "leave one out")
         if n_s != n_t:
             raise refuse("--identity", "equally many vertices", f"{n_s} and {n_t}", "name lists of vertices instead")
         return Truth(np.arange(n_t), np.arange(n_t))
     if files is None:
         if symmetric is not None:
-            raise refuse("--symmetric", "--truth SOURCE TARGET beside it", "--symmetric alone", "give both")
+            raise refuse("--symmetric", "--truth SOURCE TARGET with it", "--symmetric alone", "give both")
         return None
     return Truth(*read_vertex_lists(files if symmetric is None else (*files, symmetric), (n_s, n_t, n_t)))
 
 
 def read_vertex_lists(files: Sequence[str | Path], counts: Sequence[int]) -> list[np.ndarray]:
-    """Read lists of vertices, line k of one corresponding to line k of the others.
-
-    ``counts``: vertices of the shape of each file.
-    """
+    """Read lists of vertices, whose lines correspond; ``counts``: number of vertices of each file's shape."""
     lists = [read_vertex_numbers(file) for file in files]
     for file, numbers, count in zip(files, lists, counts, strict=False):
         if len(numbers) != len(lists[0]):
@@ -101,31 +95,31 @@ def _check_range(numbers: np.ndarray, count: int, name: str) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Accuracy:
-    """How good a map is. What is not known, or does not apply, is ``None``."""
+    """Errors and other measures of a map; ``None`` where one is unknown or does not apply."""
 
-    errors: Evaluation  # in units of √area, of a part of those of the whole
-    matched: float = 1.0  # part of the truth's points that the map gives a counterpart; the others are in no mean
-    coverage: float | None = None  # part of the source's area that something is mapped to
+    errors: Evaluation  # in units of √area, for a part in those of the whole
+    matched: float = 1.0  # share of the truth's points that have an image; the others are in no mean
+    coverage: float | None = None  # share of the source's area that is reached
     mirrored: Evaluation | None = None  # errors against the mirrored truth
     precise: Evaluation | None = None  # errors of points inside triangles
     smoothness: Smoothness | None = None
-    overlap: float | None = None  # intersection over union, by area of the whole, of the found and the true common part
-    missing: float | None = None  # part of the whole's area that the part lacks
+    overlap: float | None = None  # intersection over union of the predicted and the true overlap, by area
+    missing: float | None = None  # share of the whole's area that the part lacks
 
     def as_dict(self) -> dict[str, object]:
         """Return plain numbers for JSON, errors in units of √area."""
-        found = {**_numbers(self.errors), "points": len(self.errors.errors)}
+        values = {**_numbers(self.errors), "points": len(self.errors.errors)}
         for name in ("matched", "coverage", "mirrored", "precise", "smoothness", "overlap", "missing"):
             value = getattr(self, name)
             if isinstance(value, Evaluation | Smoothness):
-                found[name] = _numbers(value) if isinstance(value, Evaluation) else asdict(value)
+                values[name] = _numbers(value) if isinstance(value, Evaluation) else asdict(value)
             elif value is not None and math.isfinite(value):
-                found[name] = value
-        return found
+                values[name] = value
+        return values
 
 
 def _numbers(errors: Evaluation) -> dict[str, object]:
-    """The numbers of an evaluation by name, ``None`` for infinite ones."""
+    """Return the numbers of an evaluation by name, ``None`` for infinite ones."""
     names = ("mean", "median", "worst", "auc", "exact")
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
@@ -135,144 +129,146 @@ def assess(
     target_to_source: np.ndarray,
     truth: Truth,
     *,
-    place: PointMap | None = None,
+    points: PointMap | None = None,
     target: Mesh | None = None,
     mirrored: int | None = None,
 ) -> Accuracy:
-    """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
+    """Compare a map with the truth, by geodesic errors on ``source`` in units of √area.
 
-    ``target_to_source (n_t,)``: −1 where a vertex has no counterpart; ``place``: points inside triangles, whose errors
-    are measured too; ``target``: where it is given, and both are surfaces, the map's smoothness is measured too.
-    ``mirrored``: points of the mirrored truth at most, evenly through the list. Their images are far away, and such
-    distances take most of the time.
+    ``target_to_source (n_t,)``: −1 where a vertex has no counterpart; ``points``: points inside triangles, whose errors
+    are measured too; ``target``: with it the smoothness of a map between surfaces is measured too; ``mirrored``: number
+    of points of the mirrored truth at most, since long distances take most of the time.
     """
     target_to_source = check_map(target_to_source, len(source.vertices), partial=True)
     check_truth(truth, len(source.vertices), len(target_to_source))
 
-    def errors(target: np.ndarray, most: int | None = None) -> Evaluation:
-        step = 1 if most is None else -(-len(target) // most)
+    def errors(target: np.ndarray, max_points: int | None = None) -> Evaluation:
+        step = 1 if max_points is None else -(-len(target) // max_points)
         predicted = evaluate.truth_from_pairs(truth.source, target, target_to_source)
         predicted, true = predicted[::step], truth.source[::step]
-        known = predicted >= 0
-        if not known.any():
+        has_image = predicted >= 0
+        if not has_image.any():
             raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
-        return evaluate.summarize_errors(evaluate.geodesic_errors(source, predicted[known], true[known]))
+        return evaluate.summarize_errors(evaluate.geodesic_errors(source, predicted[has_image], true[has_image]))
 
-    swapped = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
-    precise = smooth = None
+    mirrored_errors = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
+    precise_errors = smoothness = None
     matched = target_to_source[truth.target] >= 0
     # A vertex that no face uses lies in no triangle.
-    if place is not None and np.isin(truth.source, source.faces).all():
+    if points is not None and np.isin(truth.source, source.faces).all():
         rows = truth.target[matched]
-        at = PointMap(place.faces[rows], place.weights[rows])
-        precise = evaluate.summarize_errors(evaluate.precise_errors(source, at, truth.source[matched]))
-    lost = target_to_source < 0
-    whole = place is not None or bool(np.isin(target_to_source[~lost], source.faces).all())
-    if target is not None and len(target.faces) and whole:
-        common = Mesh(target.vertices, target.faces[~lost[target.faces].any(axis=1)])
-        if len(common.faces):
-            smooth = evaluate.smoothness(source, common, np.maximum(target_to_source, 0) if place is None else place)
-    reached = evaluate.coverage(target_to_source, source)
-    return Accuracy(errors(truth.target), float(matched.mean()), reached, swapped, precise, smooth)
+        at = PointMap(points.faces[rows], points.weights[rows])
+        precise_errors = evaluate.summarize_errors(evaluate.precise_errors(source, at, truth.source[matched]))
+    unmatched = target_to_source < 0
+    has_points = points is not None or bool(np.isin(target_to_source[~unmatched], source.faces).all())
+    if target is not None and len(target.faces) and has_points:
+        matched_mesh = Mesh(target.vertices, target.faces[~unmatched[target.faces].any(axis=1)])
+        if len(matched_mesh.faces):
+            smoothness = evaluate.smoothness(
+                source, matched_mesh, np.maximum(target_to_source, 0) if points is None else points
+            )
+    coverage = evaluate.coverage(target_to_source, source)
+    return Accuracy(errors(truth.target), float(matched.mean()), coverage, mirrored_errors, precise_errors, smoothness)
 
 
 @dataclass(frozen=True, eq=False)
 class PartTruth:
-    """Where vertices of a part belong on the whole."""
+    """True positions of vertices of a part on the whole."""
 
     vertices: np.ndarray  # (q,): of the part
-    places: PointMap  # on the whole, of each of them
-    dense: bool  # whether they are all of the part's vertices, in order
+    places: PointMap  # on the whole, for each of them
+    dense: bool  # whether these are all of the part's vertices, in order
 
 
 def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
-    """Read the truth of a part, in one of the two forms that benchmarks have.
+    """Read the truth of a part, in one of the two formats of benchmarks.
 
-    ``path``: ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three
-    barycentric weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts`` from
-    1).
+    ``.baryc_gt`` has a line for each vertex of the part: a triangle of the whole, counted from 1, and three barycentric
+    weights. Any other file has lines "vertex of the whole, vertex of the part", counted from 0, or from 1 in ``.vts``.
     """
     name = str(path)
     if path.suffix.lower() == ".baryc_gt":
         rows = parse_rows(clean_text(read_bytes(path), name), name)
-        found = as_table(rows, 4, name, "a triangle and three weights a line").astype(np.float64)
-        if len(found) != len(part.vertices):
-            wanted = f"{len(part.vertices)} lines, one per vertex of the part"
-            raise refuse(name, wanted, str(len(found)), "check which shape is the part")
-        weights = np.maximum(found[:, 1:], 0.0)
+        table = as_table(rows, 4, name, "a triangle and three weights a line").astype(np.float64)
+        if len(table) != len(part.vertices):
+            expected = f"{len(part.vertices)} lines, one per vertex of the part"
+            raise refuse(name, expected, str(len(table)), "check which shape is the part")
+        weights = np.maximum(table[:, 1:], 0.0)
         total = weights.sum(axis=1, keepdims=True)
-        if (total < 0.5).any() or (total > 1.5).any() or (found[:, 0] != np.rint(found[:, 0])).any():
+        if (total < 0.5).any() or (total > 1.5).any() or (table[:, 0] != np.rint(table[:, 0])).any():
             raise refuse(name, "a triangle and three weights of sum 1 a line", "others", "check the file")
-        places = PointMap(found[:, 0].astype(np.int64) - 1, weights / total)
-        return PartTruth(np.arange(len(found)), check_point_map_precise(places, whole), True)
+        places = PointMap(table[:, 0].astype(np.int64) - 1, weights / total)
+        return PartTruth(np.arange(len(table)), check_point_map_precise(places, whole), True)
     pairs = read_landmarks(path)
     for column, mesh, side in ((pairs[:, 0], whole, "whole"), (pairs[:, 1], part, "part")):
         if len(column) and column.max() >= len(mesh.vertices):
-            wanted = f"vertices of the {side} from 0 to {len(mesh.vertices) - 1}"
-            raise refuse(name, wanted, str(int(column.max())), "the whole's stand first, counted from 0")
+            expected = f"vertices of the {side} from 0 to {len(mesh.vertices) - 1}"
+            raise refuse(name, expected, str(int(column.max())), "name the whole's vertices first, from 0 on")
     return PartTruth(pairs[:, 1], vertex_point_map(pairs[:, 0], whole), False)
 
 
-def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: str) -> Accuracy:
+def part_accuracy(source: Mesh, target: Mesh, match: Match, truth: PartTruth, part: str) -> Accuracy:
     """Compare a map with the truth of its ``part``, "source" or "target".
 
     Where the target is the part, errors are distances on the source between the image of each vertex and its true
-    place. Where the source is the part, they are distances on the target between each vertex and the true place of its
-    image, and ``matched`` is a share of the true common area.
+    position. Where the source is the part, they are distances on the target between each vertex and the true position
+    of its image, and ``matched`` is a share of the true overlap's area.
     """
-    points = found.target_to_source
-    place = precise_points(found, source) or vertex_point_map(np.maximum(points, 0), source)
+    points = match.target_to_source
+    map_points = precise_points(match, source) or vertex_point_map(np.maximum(points, 0), source)
     if part == "target":
-        known = points[truth.vertices] >= 0
-        rows = truth.vertices[known]
-        said = PointMap(place.faces[rows], place.weights[rows])
-        true = PointMap(truth.places.faces[known], truth.places.weights[known])
+        matched = points[truth.vertices] >= 0
+        rows = truth.vertices[matched]
+        predicted = PointMap(map_points.faces[rows], map_points.weights[rows])
+        true = PointMap(truth.places.faces[matched], truth.places.weights[matched])
         whole = source
     else:
-        known, said, true = _carried_on(source, target, points, place, truth)
+        matched, predicted, true = _compare_on_target(source, target, points, map_points, truth)
         whole = target
-    if not known.any():
+    if not matched.any():
         raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
-    errors = evaluate.summarize_errors(evaluate.precise_errors(whole, said, true))
+    errors = evaluate.summarize_errors(evaluate.precise_errors(whole, predicted, true))
     true_common = _true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)
-    overlap, share = found.partial.overlap_source, None
-    if part == "source" or overlap is not None:
-        ours = points >= 0 if part == "source" else np.asarray(overlap) > COMMON
-        share = float(areas[ours & true_common].sum() / max(areas[ours | true_common].sum(), 1e-300))
-    matched = float(known.mean())
+    overlap_source, overlap = match.partial.overlap_source, None
+    if part == "source" or overlap_source is not None:
+        predicted_common = points >= 0 if part == "source" else np.asarray(overlap_source) > COMMON
+        overlap = float(
+            areas[predicted_common & true_common].sum() / max(areas[predicted_common | true_common].sum(), 1e-300)
+        )
+    share_matched = float(matched.mean())
     if part == "source":
-        matched = float(areas[(points >= 0) & true_common].sum() / max(areas[true_common].sum(), 1e-300))
+        share_matched = float(areas[(points >= 0) & true_common].sum() / max(areas[true_common].sum(), 1e-300))
     missing = 1 - float(areas[true_common].sum() / areas.sum())
-    return Accuracy(errors, matched, overlap=share, missing=missing)
+    return Accuracy(errors, share_matched, overlap=overlap, missing=missing)
 
 
-def _carried_on(
-    source: Mesh, target: Mesh, points: np.ndarray, place: PointMap, truth: PartTruth
+def _compare_on_target(
+    source: Mesh, target: Mesh, points: np.ndarray, map_points: PointMap, truth: PartTruth
 ) -> tuple[np.ndarray, PointMap, PointMap]:
-    """Return which points can be compared, the target vertices, and the true places of what is mapped to them."""
-    there = np.full((len(source.vertices), 3), np.nan)
-    there[truth.vertices] = point_positions(truth.places, target)
-    # A corner of weight zero does not count, even where its place is not known.
-    corners = np.where(place.weights[:, :, None] > 0, there[source.faces[place.faces]], 0.0)
-    ends = np.einsum("ti,tij->tj", place.weights, corners)
-    told = np.isfinite(ends).all(axis=1)
-    known = (points >= 0) & told
-    rows = np.flatnonzero(known)
-    on = closest_points(ends[rows], target.vertices, target.faces)
-    return known[told], vertex_point_map(rows, target), PointMap(on.faces, on.weights)
+    """Return which points can be compared, the target vertices, and the true positions of their images."""
+    true_positions = np.full((len(source.vertices), 3), np.nan)
+    true_positions[truth.vertices] = point_positions(truth.places, target)
+    # A corner of weight zero may have an unknown position.
+    corners = np.where(map_points.weights[:, :, None] > 0, true_positions[source.faces[map_points.faces]], 0.0)
+    images = np.einsum("ti,tij->tj", map_points.weights, corners)
+    has_truth = np.isfinite(images).all(axis=1)
+    comparable = (points >= 0) & has_truth
+    rows = np.flatnonzero(comparable)
+    closest = closest_points(images[rows], target.vertices, target.faces)
+    return comparable[has_truth], vertex_point_map(rows, target), PointMap(closest.faces, closest.weights)
 
 
 def _true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
-    """Return which vertices of the whole (n,) are common by the truth."""
+    """Return which vertices of the whole, (n,), lie in the true overlap."""
     if truth.dense:
         unit = unit_area(whole)
-        bent = Mesh(point_positions(truth.places, unit), part.faces)
-        return overlap_probability(bent, boundary_vertices(part), unit)[0] > COMMON
-    listed = np.unique(whole.faces[truth.places.faces][truth.places.weights > 0.5])
-    ends = whole.vertices[whole.faces]
-    edge = float(np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).mean())
-    return KDTree(whole.vertices[listed]).query(whole.vertices)[0] < _NEIGHBOURS * edge
+        placed_part = Mesh(point_positions(truth.places, unit), part.faces)
+        return overlap_probability(placed_part, boundary_vertices(part), unit)[0] > COMMON
+    listed_vertices = np.unique(whole.faces[truth.places.faces][truth.places.weights > 0.5])
+    corners = whole.vertices[whole.faces]
+    edge = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean())
+    return KDTree(whole.vertices[listed_vertices]).query(whole.vertices)[0] < _MAX_EDGES * edge
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:

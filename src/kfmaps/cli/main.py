@@ -1,6 +1,6 @@
-"""The command ``kfmaps``: runs a module of ``kfmaps.cli.commands`` and reports errors in one line.
+"""The command ``kfmaps``: run a module of ``kfmaps.cli.commands`` and report errors in one line.
 
-Only the command that is asked for is imported, so that ``kfmaps --help`` is quick.
+Only the module of the named command is imported, so that ``kfmaps --help`` is quick.
 """
 
 from __future__ import annotations
@@ -36,17 +36,17 @@ COMMANDS = {
     "render": "Figures for papers (PNG, SVG, PDF), drawn without a display.",
     "learn": "Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.",
 }
-"""Modules of ``kfmaps.cli.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``; with
-the first line of its documentation, said here too so that ``--help`` imports no command."""
+"""Modules of ``kfmaps.cli.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``, and the
+first line of its documentation, so that ``--help`` imports no command."""
 
 _USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
-"""What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
+"""Class of Typer's errors about unknown options and missing arguments; in some versions it has no public name."""
 
-_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
-"""Error numbers of a stream that takes no more."""
+_OUTPUT_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+"""Error numbers of a standard output that cannot be written."""
 
 _FAILURE, _INTERRUPTED, UNREAD = 2, 130, 1
-"""Exit statuses: bad input, Ctrl-C, output that nobody reads."""
+"""Exit statuses: bad input, Ctrl-C, and output whose reader has closed."""
 
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
@@ -54,10 +54,10 @@ _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
 
 
 def _keep_freed_memory() -> None:
-    """Let the allocator of Linux keep what is freed for what is asked for next.
+    """Let the allocator of Linux keep freed memory for the next arrays; other systems are left alone.
 
-    By default large arrays are returned at once and the next are allocated page by page: a twelfth of the time of a
-    match of skulls. The peak of memory stays the same. Other systems' allocators are left alone.
+    By default it returns large arrays at once and allocates the next ones page by page, which takes a twelfth of the
+    time of a match of skulls. The peak of memory stays the same.
     """
     try:
         mallopt = ctypes.CDLL(None).mallopt
@@ -68,7 +68,7 @@ def _keep_freed_memory() -> None:
 
 
 def application(only: str | None = None) -> typer.Typer:
-    """Return the whole command; with ``only`` the other commands have a name and help, and no code."""
+    """Return the whole command; with ``only`` all other commands have a name and help, and no code."""
     app = typer.Typer(
         name="kfmaps",
         add_completion=True,
@@ -76,10 +76,10 @@ def application(only: str | None = None) -> typer.Typer:
         rich_markup_mode="rich",
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    app.callback()(_general)
+    app.callback()(_root)
     for name in COMMANDS:
         if only is not None and name != only:
-            app.command(name)(_named(name))
+            app.command(name)(_placeholder(name))
             continue
         module = importlib.import_module(f"kfmaps.cli.commands.{name}")
         if hasattr(module, "app"):
@@ -89,13 +89,13 @@ def application(only: str | None = None) -> typer.Typer:
     return app
 
 
-def _version(asked: bool) -> None:
-    if asked:
+def _version(requested: bool) -> None:
+    if requested:
         typer.echo(f"kfmaps {kfmaps.__version__}")
         raise typer.Exit
 
 
-def _general(
+def _root(
     version: Annotated[
         bool, typer.Option("--version", help="Print the version and exit.", is_eager=True, callback=_version)
     ] = False,
@@ -103,7 +103,7 @@ def _general(
     """Which point of one 3D surface corresponds to which point of another, by kernel functional maps."""
 
 
-def _named(name: str) -> Callable[[], None]:
+def _placeholder(name: str) -> Callable[[], None]:
     """Return a stand-in with the help of a command and not its code."""
 
     def command() -> None:
@@ -122,7 +122,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's; what matters is checked by kfmaps itself
         warnings.simplefilter("default", KfmapsWarning)
-        warnings.showwarning = _teller(warnings.showwarning)
+        warnings.showwarning = _warning_printer(warnings.showwarning)
         try:
             _open_streams()
             _keep_freed_memory()
@@ -132,97 +132,97 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except KeyboardInterrupt:
             return _INTERRUPTED
         except BrokenPipeError:
-            _let_go_of_output()
+            _discard_output()
             return UNREAD
         except (InvalidInput, MissingDependency, NotConverged) as error:
-            return _failed(str(error))
+            return _report_error(str(error))
         except MemoryError as error:
-            return _failed(f"not enough memory; use smaller meshes or fewer samples ({error or 'no details'})")
+            return _report_error(f"not enough memory; use smaller meshes or fewer samples ({error or 'no details'})")
         except OSError as error:
-            if error.filename is None and error.errno in _FULL:
-                return _unwritable(error)
+            if error.filename is None and error.errno in _OUTPUT_ERRORS:
+                return _report_output_error(error)
             place = f"{error.filename}: " if error.filename else ""
-            return _failed(f"{place}{error.strerror or error}; check the path, its rights and the space left")
+            return _report_error(f"{place}{error.strerror or error}; check the path, its rights and the space left")
 
 
 def _open_streams() -> None:
     """Open standard streams that the caller has closed, on the null device.
 
-    Else the next file that is opened would get the number of one of them, and be written to by mistake.
+    Otherwise the next file that is opened would get the number of a standard stream, and be overwritten by messages.
     """
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
             try:
                 os.fstat(number)  # another file has the number already
             except OSError:
-                nothing = os.open(os.devnull, os.O_RDWR)
-                if nothing != number:
-                    os.dup2(nothing, number)
-                    os.close(nothing)
+                null_device = os.open(os.devnull, os.O_RDWR)
+                if null_device != number:
+                    os.dup2(null_device, number)
+                    os.close(null_device)
             setattr(sys, name, open(os.devnull, "r+" if name == "stdin" else "w", encoding="utf-8"))  # noqa: SIM115
 
 
-def _unwritable(error: OSError) -> int:
-    """Report that the output could not be written; errors of files name the file."""
-    _let_go_of_output()
-    return _failed(f"standard output: {error.strerror or error}; check the space left where it goes")
+def _report_output_error(error: OSError) -> int:
+    """Report that standard output cannot be written; errors of files name the file instead."""
+    _discard_output()
+    return _report_error(f"standard output: {error.strerror or error}; check the space left where it goes")
 
 
-def _let_go_of_output() -> None:
-    """Redirect the buffered output to the null device: it would raise again when Python flushes at exit."""
+def _discard_output() -> None:
+    """Redirect the buffered output to the null device, or it would raise again when Python flushes it at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(words: Sequence[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")  # file names may hold bytes that are no text
+            stream.reconfigure(errors="backslashreplace")  # file names may have bytes that are no text
     completing = "_KFMAPS_COMPLETE" in os.environ
-    asked = next((word for word in words if not word.startswith("-")), "")
-    command = typer.main.get_command(application(None if completing else asked))
+    name = next((word for word in words if not word.startswith("-")), "")
+    command = typer.main.get_command(application(None if completing else name))
     try:
-        with standard_streams(words, asked) as words:
+        with standard_streams(words, name) as words:
             status = command.main(args=words, prog_name="kfmaps", standalone_mode=False)
     except _USAGE_ERROR as error:
         context = getattr(error, "ctx", None)
-        message = _other_option(error, context) or error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
+        message = _suggest_settings(error, context) or error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
         path = getattr(context, "command_path", "kfmaps")
-        # Without a message it is a group without a command, whose help has been printed.
-        return _failed(f"{message.rstrip('.')}; see {path} --help") if message else _FAILURE
+        # There is no message where a group got no command; its help has been printed.
+        return _report_error(f"{message.rstrip('.')}; see {path} --help") if message else _FAILURE
     except typer.Abort:
         return _INTERRUPTED
-    except SystemExit as leaving:
-        return leaving.code if isinstance(leaving.code, int) else 0
+    except SystemExit as exit:
+        return exit.code if isinstance(exit.code, int) else 0
     return status if isinstance(status, int) else 0
 
 
-def _other_option(error: Exception, context: Any) -> str:
-    """Name the settings that an unknown option may mean, where the command takes ``--set``."""
+def _suggest_settings(error: Exception, context: Any) -> str:
+    """Return a hint at the settings that an unknown option may mean, where the command takes ``--set``."""
     option = getattr(error, "option_name", None)
     parameters = () if context is None else context.command.params
     if option is None or all(parameter.name != "assign" for parameter in parameters):
         return ""
     from kfmaps.settings import similar_settings
 
-    found = " or ".join(f"--set {path}=VALUE" for path in similar_settings(option))
-    return f"there is no option {option}; use {found}" if found else ""
+    suggestions = " or ".join(f"--set {path}=VALUE" for path in similar_settings(option))
+    return f"there is no option {option}; use {suggestions}" if suggestions else ""
 
 
-def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:
+def _warning_printer(show_others: Callable[..., None]) -> Callable[..., None]:
     """Return a ``warnings.showwarning`` that prints the package's own warnings in one line each, and none twice."""
-    told: set[str] = set()
+    printed: set[str] = set()
 
-    def tell(message: object, category: type[Warning], *where: object, **more: object) -> None:
+    def show(message: object, category: type[Warning], *where: object, **more: object) -> None:
         if not issubclass(category, KfmapsWarning):
-            otherwise(message, category, *where, **more)
-        elif str(message) not in told:
-            told.add(str(message))
+            show_others(message, category, *where, **more)
+        elif str(message) not in printed:
+            printed.add(str(message))
             _say(f"warning: {message}")
 
-    return tell
+    return show
 
 
-def _failed(text: str) -> int:
+def _report_error(text: str) -> int:
     _say(f"error: {text}")
     return _FAILURE
 

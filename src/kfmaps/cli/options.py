@@ -9,20 +9,20 @@ import typer
 
 from kfmaps._errors import refuse
 
-_COMMON = "Output"  # panel of the options that every command may have
+_PANEL = "Output"  # panel of the common options in the help
 
-_REQUIRED = ("sure", "likely")  # verdicts that can be required, best first
+_VERDICTS = ("sure", "likely")  # verdicts that can be required, best first
 UNSURE = 3
 """Exit status when a verdict is worse than the required one."""
 
 
-def _common(*names: str, help: str) -> Any:
-    return typer.Option(*names, help=help, rich_help_panel=_COMMON)
+def _output_option(*names: str, help: str) -> Any:
+    return typer.Option(*names, help=help, rich_help_panel=_PANEL)
 
 
-Force = Annotated[bool, _common("--force", help="Replace existing files.")]
-Json = Annotated[bool, _common("--json", help="Print the outcome as JSON, and nothing else.")]
-Quiet = Annotated[bool, _common("-q", "--quiet", help="Print no progress, summary or warnings.")]
+Force = Annotated[bool, _output_option("--force", help="Replace existing files.")]
+Json = Annotated[bool, _output_option("--json", help="Print the outcome as JSON, and nothing else.")]
+Quiet = Annotated[bool, _output_option("-q", "--quiet", help="Print no progress, summary or warnings.")]
 
 MapFile = Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP")]
 SourceMesh = Annotated[Path | None, typer.Option("--source", help="The source mesh; default: the one the map names.")]
@@ -46,24 +46,24 @@ Require = Annotated[
     str | None,
     typer.Option(
         help=f"Exit with status {UNSURE} where a verdict is worse; the map is written all the same.",
-        metavar="|".join(_REQUIRED),
+        metavar="|".join(_VERDICTS),
     ),
 ]
 
 
 def check_required(verdict: str | None) -> None:
     """Check the value of ``--require``."""
-    if verdict is not None and verdict not in _REQUIRED:
-        raise refuse("--require", " or ".join(_REQUIRED), repr(verdict), "choose one of them")
+    if verdict is not None and verdict not in _VERDICTS:
+        raise refuse("--require", " or ".join(_VERDICTS), repr(verdict), "choose one of them")
 
 
 def meets(verdict: str, required: str | None) -> bool:
-    """Return whether a verdict is at least the required one; a single fit, which is not judged, is not."""
-    return required is None or verdict in _REQUIRED[: _REQUIRED.index(required) + 1]
+    """Return whether a verdict is at least the ``required`` one; that of a single fit never is."""
+    return required is None or verdict in _VERDICTS[: _VERDICTS.index(required) + 1]
 
 
 def line_numbers(text: str, option: str) -> tuple[int, ...]:
-    """Return the numbers of lines, counted from 1, that a text like "201,1121" names; messages name the ``option``."""
+    """Return the line numbers, from 1, of a text like "201,1121"; ``option``: its name in messages."""
     words = text.replace(",", " ").split()
     if not words or not all(word.isdecimal() and int(word) for word in words):
         raise refuse(option, "whole numbers from 1 on, with commas between", repr(text), "count lines from 1")

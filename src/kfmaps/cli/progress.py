@@ -1,4 +1,4 @@
-"""Progress of a long computation: bars on a terminal and in a notebook, a line now and then elsewhere."""
+"""Progress of a long computation: bars on a terminal and in a notebook, lines elsewhere."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from kfmaps._arrays import shown
 from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import format_seconds
 
-_SECONDS_BETWEEN_LINES = 5.0
+_REPEAT_SECONDS = 5.0
 """Least seconds between two lines of a stage that is repeated, as when many maps are tried."""
-_SECONDS_OF_SILENCE = 15.0  # seconds between lines of a long stage without a terminal
-_SECONDS_BETWEEN_PICTURES = 0.2  # least seconds between two drawings in a notebook
+_LINE_SECONDS = 15.0  # seconds between two lines of a long stage without a terminal
+_DRAW_SECONDS = 0.2  # least seconds between two updates in a notebook
 
 
 def _time_left(done: float, elapsed: float, before: float | None = None) -> str:
-    """Return the time left, from the part that is done, else from the seconds of such a stage ``before``."""
+    """Return the time left in words, from the part that is done, else from the duration of such a stage ``before``."""
     left = elapsed * (1 - done) / done if done >= 0.02 else (before or 0.0) - elapsed
     return f", about {format_seconds(left)} left" if left > 0 else ""
 
 
-def standing(name: str, done: float, elapsed: float, before: float | None = None) -> str:
+def stage_line(name: str, done: float, elapsed: float, before: float | None = None) -> str:
     """Return the state of a stage in one line."""
     part = f"{100 * done:.0f} % done, " if done > 0 else ""
     return f"{name}: {part}{format_seconds(elapsed)} so far{_time_left(done, elapsed, before)}"
@@ -43,7 +43,7 @@ class _Bars:
         self._tasks: dict[str, TaskID] = {}
         self._bars.start()
 
-    def tell(self, name: str, done: float) -> None:
+    def update(self, name: str, done: float) -> None:
         if name not in self._tasks:
             self._tasks[name] = self._bars.add_task(escape(shown(name)), total=1.0)
         elif done <= 0:
@@ -55,58 +55,61 @@ class _Bars:
 
 
 class Lines:
-    """A line when a stage ends, and one now and then while it goes on.
+    """A line at the end of each stage, and lines at intervals during long ones, which a thread prints.
 
-    A thread reports stages that do not report themselves. A stage "... of target" is expected to last as long as "...
-    of source" did.
+    A stage "... of target" is expected to last as long as "... of source" did.
     """
 
-    def __init__(self, silence: float = _SECONDS_OF_SILENCE) -> None:
+    def __init__(self, silence: float = _LINE_SECONDS) -> None:
         self._silence = silence
         self._lock = threading.Lock()
-        self._begun: dict[str, float] = {}
+        self._started: dict[str, float] = {}
         self._done: dict[str, float] = {}
-        self._took: dict[str, float] = {}
-        self._told: dict[str, float] = {}
+        self._durations: dict[str, float] = {}
+        self._reported: dict[str, float] = {}
         self._last = time.monotonic()
-        self._ended = threading.Event()
-        self._watch = threading.Thread(target=self._go_on, daemon=True)
-        self._watch.start()
+        self._closed = threading.Event()
+        self._watcher = threading.Thread(target=self._report_long_stages, daemon=True)
+        self._watcher.start()
 
-    def tell(self, name: str, done: float) -> None:
+    def update(self, name: str, done: float) -> None:
         now = time.monotonic()
         with self._lock:
-            if done <= 0 or name not in self._begun:
-                self._begun[name] = now
+            if done <= 0 or name not in self._started:
+                self._started[name] = now
             self._done[name] = done
             if done < 1:
                 return
-            elapsed = now - self._begun[name]
-            self._took[_kind(name)] = elapsed
-            if now - self._told.get(name, -_SECONDS_BETWEEN_LINES) >= _SECONDS_BETWEEN_LINES:
-                self._told[name] = now
+            elapsed = now - self._started[name]
+            self._durations[_stage_kind(name)] = elapsed
+            if now - self._reported.get(name, -_REPEAT_SECONDS) >= _REPEAT_SECONDS:
+                self._reported[name] = now
                 self._say(f"{name}: {elapsed:.2f} s")
 
     def close(self) -> None:
-        self._ended.set()
-        self._watch.join()
+        self._closed.set()
+        self._watcher.join()
 
     def _say(self, line: str) -> None:
         self._last = time.monotonic()
         print(shown(line), file=sys.stderr, flush=True)
 
-    def _go_on(self) -> None:
-        while not self._ended.wait(self._silence / 10):
+    def _report_long_stages(self) -> None:
+        while not self._closed.wait(self._silence / 10):
             with self._lock:
                 now = time.monotonic()
                 under_way = [name for name, done in self._done.items() if done < 1]
                 if not under_way or now - self._last < self._silence:
                     continue
                 name = under_way[-1]
-                self._say(standing(name, self._done[name], now - self._begun[name], self._took.get(_kind(name))))
+                self._say(
+                    stage_line(
+                        name, self._done[name], now - self._started[name], self._durations.get(_stage_kind(name))
+                    )
+                )
 
 
-def _kind(name: str) -> str:
+def _stage_kind(name: str) -> str:
     """Return the name of a stage without the shape that it belongs to."""
     return name.rpartition(" of ")[0] or name
 
@@ -118,17 +121,17 @@ class _Notebook:
         from IPython.display import HTML, display  # pyright: ignore[reportMissingImports]
 
         self._html = HTML
-        self._begun: dict[str, float] = {}
+        self._started: dict[str, float] = {}
         self._stages: dict[str, tuple[float, float]] = {}
         self._drawn = 0.0
         self._place: Any = display(HTML(""), display_id=True)
 
-    def tell(self, name: str, done: float) -> None:
+    def update(self, name: str, done: float) -> None:
         now = time.monotonic()
-        if done <= 0 or name not in self._begun:
-            self._begun[name] = now
-        self._stages[name] = (done, now - self._begun[name])
-        if done >= 1 or now - self._drawn >= _SECONDS_BETWEEN_PICTURES:
+        if done <= 0 or name not in self._started:
+            self._started[name] = now
+        self._stages[name] = (done, now - self._started[name])
+        if done >= 1 or now - self._drawn >= _DRAW_SECONDS:
             self._draw()
 
     def close(self) -> None:
@@ -151,27 +154,27 @@ def _bars_html(stages: dict[str, tuple[float, float]]) -> str:
 
 
 class Stages:
-    """``stages(name, done)`` for a computation that reports its stages, ``done`` from 0 to 1.
+    """A context and a progress callback ``stages(name, done)``, ``done`` from 0 to 1, that shows bars or lines.
 
-    ``quiet``: say nothing.
+    ``quiet``: whether nothing is shown.
     """
 
     def __init__(self, quiet: bool = False) -> None:
         self._quiet = quiet
-        self._way: _Bars | Lines | _Notebook | None = None
+        self._display: _Bars | Lines | _Notebook | None = None
 
     def __enter__(self) -> Stages:
         console = Terminal(file=sys.stderr)
         if console.is_jupyter and not self._quiet:
-            self._way = _Notebook()
+            self._display = _Notebook()
         elif not self._quiet:
-            self._way = _Bars(console) if console.is_terminal else Lines()
+            self._display = _Bars(console) if console.is_terminal else Lines()
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._way is not None:
-            self._way.close()
+        if self._display is not None:
+            self._display.close()
 
     def __call__(self, name: str, done: float) -> None:
-        if self._way is not None:
-            self._way.tell(name, min(max(done, 0.0), 1.0))
+        if self._display is not None:
+            self._display.update(name, min(max(done, 0.0), 1.0))

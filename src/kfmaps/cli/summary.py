@@ -1,4 +1,4 @@
-"""The summary of a match: for machines and for people."""
+"""The summary of a match as a table for people."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from kfmaps.matching.score import SCORE
 _STYLES = {"likely": "bold yellow", "ambiguous": "bold red", "unlikely": "bold red"}
 """Styles of verdicts that must not be overlooked in a table."""
 
-_SHAPES = " --source {} --target {}"  # added for formats that do not name their shapes
+_SHAPE_OPTIONS = " --source {} --target {}"  # for formats that do not name their shapes
 
 
 def table(match: Match, accuracy: Accuracy | None = None, written: Path | None = None) -> Table:
-    """Return the summary for people: what was matched, the verdict, what is odd, the time, and what to do next."""
+    """Return the summary: the shapes, the verdict, oddities, the time, and the next command."""
     grid = Table(show_header=False, box=None, pad_edge=False)
     grid.add_column(style="bold", no_wrap=True)
     grid.add_column(overflow="fold")
@@ -37,21 +37,21 @@ def table(match: Match, accuracy: Accuracy | None = None, written: Path | None =
 
 
 def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list[tuple[str, str]]:
-    """Names and values of the table."""
+    """Return names and values of the table's rows."""
     n_landmarks, rejected, fit = len(match.landmarks), match.score.rejected_landmarks, match.fit
-    chance = "" if match.confidence is None else f", {probability_text(match.confidence)}"
+    probability = "" if match.confidence is None else f", {probability_text(match.confidence)}"
     sides = ((match.source, match.source_file), (match.target, match.target_file))
     rows = [
         ("matched", " → ".join(_shape(mesh, Path(file.path).name) for mesh, file in sides)),
-        ("verdict", f"{match.verdict.capitalize()}{chance}. {verdict_text(match.verdict, n_landmarks)}"),
+        ("verdict", f"{match.verdict.capitalize()}{probability}. {verdict_text(match.verdict, n_landmarks)}"),
     ]
     if (share := _doubtful_area(match)) > SCORE.max_torn_area:
         rows.append(("doubtful", f"one region, {share:.0%} of the target's area: its local fit is below one half"))
     if match.partial.suspected:
         rows.append(("parts", match.partial.reason))
-    if lost := int((match.target_to_source < 0).sum()):
+    if n_unmatched := int((match.target_to_source < 0).sum()):
         n_t = len(match.target_to_source)
-        rows.append(("no counterpart", f"{lost:,} of the target's {n_t:,} vertices: they are -1 in the map"))
+        rows.append(("no counterpart", f"{n_unmatched:,} of the target's {n_t:,} vertices: they are -1 in the map"))
     if accuracy is not None:
         rows.append(("error", _errors_text(accuracy)))
     if match.orientation == "reversing":
@@ -59,9 +59,9 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
     if n_landmarks:
         numbers = ", ".join(str(number) for number in rejected)
         left_out = f"; left out, since the map contradicts them: number {numbers}, counted from 0" if numbers else ""
-        held = match.registration.report is None or match.registration.report.landmarks_held
-        loose = "" if held else "; most are 4 % of √area or more from the map, so they do not hold it"
-        rows.append(("landmarks", f"{n_landmarks}{left_out}{loose}"))
+        is_held = match.registration.report is None or match.registration.report.landmarks_held
+        warning = "" if is_held else "; most are 4 % of √area or more from the map, so they do not hold it"
+        rows.append(("landmarks", f"{n_landmarks}{left_out}{warning}"))
     if fit.weights is not None:
         group, least = match.config.formulation.loss_group, np.argsort(fit.weights)[:3]
         text = ", ".join(f"{group} {number} {fit.weights[number]:.2f}" for number in least)
@@ -74,19 +74,21 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         part = f"{kernel}, in the initial map" if kernel else "had no part in this map"
         learned = "a search leaves the learned one out; --set search=none takes it"
         rows.append(("kernel", part if descriptor_width(match.config.kernel) is None else learned))
-    spent = sorted(match.seconds.items(), key=lambda item: -item[1])
-    longest = ", ".join(f"{name} {seconds:.1f}" for name, seconds in spent[:3])
+    stages = sorted(match.seconds.items(), key=lambda item: -item[1])
+    longest = ", ".join(f"{name} {seconds:.1f}" for name, seconds in stages[:3])
     rows.append(("time", f"{sum(match.seconds.values()):.1f} s, most of it for: {longest}"))
     if written is not None:
         shapes = (
-            "" if written.suffix.lower() in (".npz", ".mat") else _SHAPES.format(*(quote(f.path) for _, f in sides))
+            ""
+            if written.suffix.lower() in (".npz", ".mat")
+            else _SHAPE_OPTIONS.format(*(quote(f.path) for _, f in sides))
         )
         rows += [("written", shown(str(written))), ("next", shown(f"kfmaps view {quote(str(written))}{shapes}"))]
     return rows
 
 
 def _doubtful_area(match: Match) -> float:
-    """Return the share of the target's area with a low local fit, where whole shapes have a good verdict; else 0."""
+    """Return the share of the target's area with a low local fit; 0 without a good verdict and for parts."""
     if len(match.target.faces) == 0 or match.verdict not in ("sure", "likely") or match.partial.which != "none":
         return 0.0
     return low_confidence_area(match.target, match.local_confidence)
@@ -98,7 +100,7 @@ def _shape(mesh: Mesh, name: str) -> str:
 
 
 def _errors_text(accuracy: Accuracy) -> str:
-    """Errors in one line."""
+    """Return the errors in one line."""
     e = accuracy.errors
     return (
         f"mean {percent(e.mean)}, median {percent(e.median)}, worst {percent(e.worst)} {UNIT}; "

@@ -1,4 +1,4 @@
-"""Print for people: no control character in a name reaches the terminal."""
+"""Print on a terminal; control characters in names never reach it."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from kfmaps._arrays import shown
 
 
 class Terminal(Console):
-    """A :class:`rich.console.Console` that shows control characters in texts as such; styles stay what they are."""
+    """A :class:`rich.console.Console` that prints the codes of control characters in texts; styles stay."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
-        self.push_render_hook(_Shown())
+        self.push_render_hook(_PrintableHook())
 
 
-class _Shown(RenderHook):
+class _PrintableHook(RenderHook):
     def process_renderables(self, renderables: list[ConsoleRenderable]) -> list[ConsoleRenderable]:
-        return [_Plain(renderable) for renderable in renderables]
+        return [_Printable(renderable) for renderable in renderables]
 
 
-class _Plain:
-    """A renderable whose letters are all printable."""
+class _Printable:
+    """A renderable with codes in place of characters that cannot be printed."""
 
     def __init__(self, inside: ConsoleRenderable) -> None:
         self.inside = inside
@@ -47,6 +47,6 @@ def print_json(values: object) -> None:
 
 
 def report_files(*paths: Path | None, as_json: bool) -> None:
-    """Print the written files as JSON where that was asked for, else nothing."""
+    """Print the written files as JSON where ``as_json``, else nothing."""
     if as_json:
         print_json({"output": [path for path in paths if path is not None]})

@@ -1,11 +1,11 @@
-"""Numbers and verdicts in words, the same everywhere."""
+"""Texts of numbers and verdicts for terminals, pages and figures."""
 
 from __future__ import annotations
 
 UNIT = "% of √area"
-"""The one unit of errors on terminals, pages and figures: per cent of the square root of the source's area.
+"""Unit of errors for people: per cent of the square root of the source's area.
 
-Python, JSON and tables for machines have the plain fraction, in units of √area.
+Python, JSON and tables for programs have the plain fraction, in units of √area.
 """
 
 
@@ -15,7 +15,7 @@ def percent(error: float | None, digits: int = 2) -> str:
 
 
 def plural(number: int, word: str) -> str:
-    """Return how many there are of something: "1 pair", "12 pairs"."""
+    """Return a number with its noun: "1 pair", "12 pairs"."""
     return f"{number} {word}" if number == 1 else f"{number} {word}s"
 
 
@@ -27,7 +27,7 @@ def probability_text(probability: float) -> str:
 
 
 def format_seconds(seconds: float) -> str:
-    """Return a duration, rounded to what one can tell: 40 s, 12 min, 3 h 20 min."""
+    """Return a rounded duration: 40 s, 12 min, 3 h 20 min."""
     if seconds < 100:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)
@@ -44,16 +44,16 @@ VERDICTS = {
     "unlikely": "Probably wrong: no map that was found fits well. The shapes may differ too much, or one is a part.",
     "unchecked": "One fit, compared with no other map. Without landmarks it may swap left and right.",
 }
-"""What the verdict of a match means, on terminals and pages alike."""
+"""Meaning of each verdict."""
 _WITHOUT_LANDMARKS = {
     "likely": "If it is wrong, two or three landmarks help.",
     "ambiguous": "Two or three landmarks decide.",
     "unlikely": "Two or three landmarks may help.",
 }
-"""Advice that is given where there were no landmarks."""
+"""Advice for matches without landmarks."""
 
 
 def verdict_text(verdict: str, n_landmarks: int) -> str:
-    """Return what a verdict means and what to do, for a match with so many landmarks; empty for an unknown verdict."""
+    """Return the meaning of a verdict and advice, for a match with ``n_landmarks``; empty for an unknown verdict."""
     advice = "" if n_landmarks else _WITHOUT_LANDMARKS.get(verdict, "")
     return f"{VERDICTS.get(verdict, '')} {advice}".strip()

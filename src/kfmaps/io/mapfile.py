@@ -134,37 +134,39 @@ def with_files(match: Match, paths: tuple[Path, Path], meshes: tuple[Mesh, Mesh]
     return replace(match, source=meshes[0], target=meshes[1], source_file=source, target_file=target)
 
 
-def mesh_path(path: Path | None, match: Match, side: str, map_path: Path, remedy: str = "") -> Path:
-    """Return the file of the shape ``side``: ``path``, else the one that the map names, there or beside the map.
-
-    ``map_path``: file of the map; ``remedy``: advice where there is no file, by default the command's option.
-    """
+def mesh_path(path: Path | None, match: Match, side: str, map_path: Path) -> Path:
+    """Return the file of the shape ``side``: ``path``, else that of the match, where it says or beside ``map_path``."""
     if path is not None:
         return path
-    name = getattr(match, f"{side}_file").path
+    name, remedy = getattr(match, f"{side}_file").path, f"give --{side} FILE, or {side}= in Python"
     if not name:
-        raise refuse(f"{side} mesh", "its file", "a map that does not name it", remedy or f"give --{side} FILE")
+        raise refuse(f"{side} mesh", "its file", "a map that does not name it", remedy)
     for candidate in (Path(name), map_path.parent / name, map_path.parent / Path(name).name):
         if candidate.is_file():
             return candidate
-    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {name}", remedy or f"give --{side} FILE")
+    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {name}", remedy)
 
 
-def map_mesh(path: Path | None, match: Match, side: str, map_path: Path, remedy: str = "") -> Mesh:
+def map_mesh(path: Path | None, match: Match, side: str, map_path: Path) -> Mesh:
     """Return the mesh of :func:`map_mesh_file`."""
-    return map_mesh_file(path, match, side, map_path, remedy).mesh
+    return map_mesh_file(path, match, side, map_path).mesh
 
 
-def map_mesh_file(path: Path | None, match: Match, side: str, map_path: Path, remedy: str = "") -> MeshFile:
-    """Return the shape ``side`` of a map, read from :func:`mesh_path`, and warn where it has changed since.
+def map_mesh_file(path: Path | None, match: Match, side: str, map_path: Path) -> MeshFile:
+    """Read the shape ``side`` of a map from :func:`mesh_path`, and warn where it has changed since.
 
     Oddities of the mesh were reported when it was matched, and are not reported again.
     """
-    mesh_file, digest = mesh_path(path, match, side, map_path, remedy), getattr(match, f"{side}_file").sha256
+    mesh_file, digest = mesh_path(path, match, side, map_path), getattr(match, f"{side}_file").sha256
     if digest and sha256(mesh_file) not in ("", digest):
         warnings.warn(f"{mesh_file} has changed since the map was made", KfmapsWarning, stacklevel=2)
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
         return read_mesh_file(mesh_file)
+
+
+def map_meshes(paths: tuple[Path | None, Path | None], match: Match, map_path: Path) -> tuple[Mesh, Mesh]:
+    """Return source and target of a map as :func:`map_mesh` does; ``paths``: their files, ``None`` as the map names."""
+    return map_mesh(paths[0], match, "source", map_path), map_mesh(paths[1], match, "target", map_path)
 
 
 def check_format(path: str | Path) -> str:

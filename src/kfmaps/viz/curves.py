@@ -17,10 +17,10 @@ from kfmaps.cli.words import UNIT
 from kfmaps.fmap.evaluate import error_curve
 from kfmaps.viz.figures import TEXT, NotebookFigure, percent_ticks, style_axes
 
-# Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
+# Okabe and Ito (2008): distinguishable without colour vision, and with the dashes also in grey.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
 _DASHES = ("solid", "dashed", "dashdot", "dotted")
-_N_THRESHOLDS = 251  # points of a curve of :func:`plot_curve`
+_N_THRESHOLDS = 251  # points of a curve in :func:`plot_curve`
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class Curve:
     fractions : (t,) float64
         Of points with an error at or below each threshold, from 0 to 1.
     low, high : (t,) float64 or None
-        A band around it, such as between pairs.
+        A band around the curve, such as the spread over pairs.
     """
 
     label: str
@@ -51,7 +51,7 @@ class Curve:
 def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
     """Return the mean of the ``curves`` (m, t) of single pairs, with a band that holds the middle 80 % of them.
 
-    ``thresholds (t,)`` are their errors in √area, ``label`` is the name of the result.
+    ``label``: name of the mean; ``thresholds (t,)``: errors of the curves, in √area.
     """
     curves = check(np.asarray(curves, dtype=np.float64), "curves", shape=(None, len(thresholds)))
     if len(curves) == 0:
@@ -67,8 +67,8 @@ def plot_curve(errors: Mapping[str, ArrayLike], *, limit: float = 0.25, title: s
     Parameters
     ----------
     errors : mapping of str to (q,) arrays
-        Errors by the name of their curve, as :func:`kfmaps.geodesic_errors` returns them. A point without a counterpart
-        (NaN) is within no error.
+        Errors by the name of the curve, as :func:`kfmaps.geodesic_errors` returns them. A point without a counterpart
+        (NaN) counts as an infinite error.
     limit : float
         Error at which the axis ends, as a fraction of √area.
     title : str, optional

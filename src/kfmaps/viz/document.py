@@ -1,4 +1,4 @@
-"""Self-contained HTML documents: bundled script and style, data as JSON, and a policy that allows no more."""
+"""Self-contained HTML documents: bundled script and style, data as JSON, and a policy that allows nothing else."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _record(array: np.ndarray, name: str, code: str) -> JsonObject:
 
 
 def encode_integers(numbers: np.ndarray) -> JsonObject:
-    """Encode whole numbers from 0 up, in the smallest of one, two or four bytes each that holds them all."""
+    """Encode whole numbers from 0 on with one, two or four bytes each, as few as hold all of them."""
     numbers = np.asarray(numbers)
     largest = int(numbers.max(initial=0))
     name, code = next((n, c) for n, c in _UNSIGNED if largest <= np.iinfo(c).max)
@@ -33,24 +33,24 @@ def encode_integers(numbers: np.ndarray) -> JsonObject:
 
 
 def encode_floats(values: np.ndarray) -> JsonObject:
-    """Encode real numbers as two-byte steps between their least and greatest, off by 1/131068 of that range at most.
+    """Encode real numbers as two-byte steps from the least to the greatest, with an error of 1/131068 of that range.
 
     NaN and infinities become one reserved code, which the page reads as "not known".
     """
     values = np.asarray(values, dtype=np.float64)
-    known = np.isfinite(values)
-    low = float(values[known].min(initial=np.inf)) if known.any() else 0.0
-    high = float(values[known].max(initial=-np.inf)) if known.any() else 0.0
+    is_finite = np.isfinite(values)
+    low = float(values[is_finite].min(initial=np.inf)) if is_finite.any() else 0.0
+    high = float(values[is_finite].max(initial=-np.inf)) if is_finite.any() else 0.0
     step = (high - low) / 65534 or 1.0
     codes = np.full(values.shape, 65535, dtype=np.uint16)
-    codes[known] = np.rint((values[known] - low) / step).astype(np.uint16)
+    codes[is_finite] = np.rint((values[is_finite] - low) / step).astype(np.uint16)
     return {**_record(codes, "uint16", "<u2"), "low": low, "step": step}
 
 
 def to_json(value: object) -> Any:
-    """Return ``value`` with NumPy's numbers and arrays, tuples and non-finite floats turned into what JSON has.
+    """Return ``value`` as types that JSON has.
 
-    NaN and infinities become the strings ``"nan"``, ``"inf"`` and ``"-inf"``; anything unknown, its ``str``.
+    NaN and infinities become the strings ``"nan"``, ``"inf"`` and ``"-inf"``, and unknown objects their ``str``.
     """
     if isinstance(value, Mapping):
         return {str(k): to_json(v) for k, v in value.items()}
@@ -68,20 +68,20 @@ def to_json(value: object) -> Any:
 def _json_block(data: object) -> str:
     """Return JSON that is safe between ``<script>`` tags: no ``<``, ``>`` or ``&`` is left in it.
 
-    A mesh called ``</script><script>`` is then only a name: those characters stand inside JSON strings alone,
-    where their escaped form means the same.
+    So a mesh called ``</script><script>`` is only a name: these characters occur only inside JSON strings, where their
+    escaped form means the same.
     """
     text = json.dumps(to_json(data), ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")
 
 
 def data_address(kind: str, content: bytes) -> str:
-    """Return the address of a picture that holds it; ``kind``: its media type."""
+    """Return a picture as a data address; ``kind``: its media type."""
     return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
 
 
 def environment(package: str) -> Environment:
-    """Return the templates of a package's ``templates`` folder; whatever is put into them is escaped."""
+    """Return the templates of a package's ``templates`` folder; they escape their values."""
     return Environment(loader=PackageLoader(package), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
 
 
@@ -97,7 +97,7 @@ def _hash(text: str) -> str:
 def policy(script: str, style: str, *, connect: bool) -> str:
     """Return the content security policy: this script, this style, images made in the page, and nothing else.
 
-    With ``connect`` the page may also speak to the server it came from.
+    ``connect``: whether the page may also send requests to its own server.
     """
     return "; ".join(
         [
@@ -115,9 +115,8 @@ def policy(script: str, style: str, *, connect: bool) -> str:
 def document(template: str, *, title: str, data: object, connect: bool = False) -> str:
     """Return a whole page.
 
-    ``template``: name of the template with the page's body; ``title``: any text; it is escaped; ``data``: what
-    :func:`kfmaps.viz.document.to_json` can turn into JSON; the script reads it as data only. ``connect``: whether the
-    page may send requests to its own server. A page for the disk may send none at all.
+    ``template``: name of the template with the page's body; ``title``: any text; ``data``: of the script, converted by
+    :func:`to_json`; ``connect``: whether the page may send requests to its own server.
     """
     script, style = asset("viewer.js"), asset("viewer.css")
     return _TEMPLATES.get_template(template).render(
@@ -132,8 +131,8 @@ def document(template: str, *, title: str, data: object, connect: bool = False) 
 def forwarding_page(address: str) -> str:
     """Return a page that leads to ``address`` at once.
 
-    Opened from a file that only its owner can read, it keeps the address out of the browser's command line, which
-    every user of the machine can see.
+    Every user of the machine can see the browser's command line. Opening this page from a file that only its owner can
+    read keeps the address out of it.
     """
     return _TEMPLATES.get_template("forward.html.j2").render(address=address)
 

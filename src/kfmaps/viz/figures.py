@@ -1,4 +1,4 @@
-"""What all figures share: formats, colours of places and of errors, and the colour bar."""
+"""Formats, colours of positions and errors, and the colour bar of all figures."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _MIDDLE_GREY = "#7b8492"
 
 
 class NotebookFigure(Figure):
-    """A figure that a notebook shows by itself, also where pyplot was never imported."""
+    """A figure that a notebook shows even where pyplot was never imported."""
 
     def _repr_png_(self) -> bytes:
         buffer = io.BytesIO()
@@ -42,9 +42,9 @@ def picture_format(path: str | Path) -> str:
 
 
 def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = _DPI) -> None:
-    """Write ``figure`` as ``kind`` (png, svg or pdf; by default what the name of ``file`` says).
+    """Write ``figure`` as ``kind``: png, svg or pdf; by default the extension of ``file`` decides.
 
-    The same figure gives the same bytes: no date goes in. An existing file is replaced. ``dpi``: dots per inch of a
+    The same figure gives the same bytes, without a date. An existing file is replaced. ``dpi``: dots per inch of a
     PNG, and of the surfaces inside an SVG or PDF.
 
     Raises
@@ -63,7 +63,7 @@ def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None =
 
 
 def make_transparent(figure: Figure) -> Figure:
-    """Return ``figure`` without its white ground, its text and axes in a grey that light and dark pages allow."""
+    """Return ``figure`` with a transparent ground, and its text and axes in a grey for light and dark pages."""
     figure.patch.set_alpha(0)
     for ax in figure.axes:
         ax.patch.set_alpha(0)
@@ -78,7 +78,7 @@ def make_transparent(figure: Figure) -> Figure:
 
 
 def style_axes(ax: Axes) -> None:
-    """Give axes of curves a light grid and two sides."""
+    """Give axes of curves a light grid, and lines at the left and bottom only."""
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True, color="#e4e4e4", linewidth=0.6)
     ax.set_axisbelow(True)
@@ -96,7 +96,8 @@ def add_error_bar(
 ) -> None:
     """Draw the colour bar of errors from 0 to ``limit`` at ``place`` (left, bottom, width, height of the figure).
 
-    Its end is pointed where some errors lie ``beyond``; ``text`` is the size of the label in points, and a ninth more.
+    ``beyond``: whether some errors are larger, which gives the bar a pointed end; ``text``: size of the figure's text
+    in points, of which the label has nine tenths.
     """
     bar = figure.colorbar(
         ScalarMappable(Normalize(0, limit), ERROR_MAP),
@@ -111,14 +112,14 @@ def add_error_bar(
 ERROR_MAP = LinearSegmentedColormap.from_list(
     "kfmaps errors", ["#ffffff", "#fde0c5", "#f7a17a", "#e0503f", "#a5142f", "#560723"]
 )
-"""White at zero and darker all the way up, so that it reads without colour vision and in grey too."""
+"""White at zero and ever darker above, so that it can be read without colour vision and in grey."""
 
 _LIGHTNESS, _LIGHTNESS_SPAN, _CHROMA = 0.79, 0.10, 0.17
-"""OKLab values of the place colours: the middle lightness, how far it varies, and how far a and b do."""
+"""OKLab values of the position colours: mean lightness, its variation, and that of a and b."""
 
 
 def _oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
-    """Return sRGB in [0, 1] of OKLab colours (n, 3), cut off where a screen cannot show them (Ottosson 2020)."""
+    """Return sRGB in [0, 1] of OKLab colours (n, 3), clipped where a screen cannot show them (Ottosson 2020)."""
     cones = lab @ np.array(
         [
             [1, 1, 1],
@@ -138,18 +139,18 @@ def _oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
 
 
 def position_colors(mesh: Mesh) -> np.ndarray:
-    """Return a colour for each place of a shape, sRGB in [0, 1], (n, 3).
+    """Return colours by the position of each vertex, sRGB in [0, 1], (n, 3).
 
-    Along the file's axis of the largest extent colours run from blue to yellow; the other two share green
-    to magenta and dark to light, so that left and right and front and back differ (OKLab). Units, and where
-    the shape lies, do not matter.
+    Colours run from blue to yellow along the file's axis of the largest extent. The other two axes share green to
+    magenta and dark to light, so that left and right and front and back differ (OKLab). Units and the shape's position
+    do not matter.
     """
     extent = np.ptp(mesh.vertices, axis=0)
     weights = vertex_areas(mesh) if len(mesh.faces) else np.ones(len(mesh.vertices))
     centred = mesh.vertices - np.average(mesh.vertices, axis=0, weights=weights)
     deviation = np.sqrt(np.average(centred**2, axis=0, weights=weights))
     place = centred / np.where(deviation > 0, deviation, 1)
-    # Most of a shape is near its middle; bent so, it takes up most of the colours.
+    # Most of a shape is near its middle, and this function gives the middle most of the colours.
     place = place / np.sqrt(1 + place**2)
     longest, middle, shortest = place[:, np.argsort(-extent, kind="stable")].T
     lightness = _LIGHTNESS + _LIGHTNESS_SPAN / 2 * (longest - middle + shortest)
@@ -157,7 +158,7 @@ def position_colors(mesh: Mesh) -> np.ndarray:
 
 
 def error_limit(errors: np.ndarray) -> float:
-    """Return where the colours of ``errors`` end: their 99th percentile, rounded up to 1, 2, 3, 4, 6 or 8."""
+    """Return the 99th percentile of ``errors``, rounded up to 1, 2, 3, 4, 6 or 8: the end of their colours."""
     top = float(np.percentile(errors, 99))
     if not top > 0:
         return 0.01
@@ -166,7 +167,7 @@ def error_limit(errors: np.ndarray) -> float:
 
 
 def percent_ticks() -> FuncFormatter:
-    """Return the format of an axis of errors, which has units of √area, as per cent."""
+    """Return the format that shows errors in √area as per cent."""
     return FuncFormatter(lambda error, _: f"{100 * error:g}")
 
 

@@ -1,4 +1,4 @@
-"""What the pages of maps, landmarks and reviews show alike: shapes, maps, verdicts and views, as records for JSON."""
+"""Records for JSON that several pages read: shapes, maps, verdicts and views."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from kfmaps.viz.figures import position_colors
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, object]:
-    """Return a mesh as the page reads it: name, positions (centred, unit area), faces."""
-    placed = unit_area(mesh).vertices
-    placed = placed - (placed.min(axis=0) + placed.max(axis=0)) / 2
-    return {"name": name, "positions": encode_floats(placed), "faces": encode_integers(mesh.faces)}
+    """Return a mesh as pages read it: name, positions (centred, unit area), faces."""
+    positions = unit_area(mesh).vertices
+    positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
+    return {"name": name, "positions": encode_floats(positions), "faces": encode_integers(mesh.faces)}
 
 
 def source_record(mesh: Mesh, name: str, colors: np.ndarray | None = None) -> dict[str, object]:
@@ -34,38 +34,38 @@ def painted_record(colors: np.ndarray, plane: np.ndarray) -> dict[str, object]:
 
 
 def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, object]:
-    """Return a point map as the page reads it: the map, its links back from the source, its distortion of area.
+    """Return a point map as pages read it: the map, the nearest image of each source vertex, and the area distortion.
 
-    A vertex without counterpart has the number after the source's last.
+    A vertex without a counterpart has the number after the source's last.
     """
-    lost = target_to_source < 0
+    unmatched = target_to_source < 0
     return {
         "label": label,
-        "points": encode_integers(np.where(lost, len(source.vertices), target_to_source)),
+        "points": encode_integers(np.where(unmatched, len(source.vertices), target_to_source)),
         "nearest": encode_integers(nearest_reached(source, target_to_source)),
         "distortion": encode_floats(area_distortion(source, target, target_to_source)),
     }
 
 
 def verdict_record(verdict: str, confidence: float | None, n_landmarks: int) -> dict[str, object] | None:
-    """Return a verdict with its text; ``None`` for one that this version does not know."""
+    """Return a verdict with its text; ``None`` for an unknown verdict."""
     if verdict not in VERDICTS:
         return None
     return {"kind": verdict, "text": verdict_text(verdict, n_landmarks), "confidence": confidence}
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, object]:
-    """Return the source's camera axes, and the rotation from how the source lies to how the target lies.
+    """Return the source's camera axes, and the rotation of the target against the source.
 
-    The rotation is the shapes' own (:func:`~kfmaps.viz.camera.rotation_between`), so that both are seen from
-    the same side of the body whatever the map says.
+    The shapes decide the rotation (:func:`~kfmaps.viz.camera.rotation_between`), so that both are seen from the same
+    side of the body even where the map is wrong.
     """
-    turn = rotation_between(source, target, target_to_source)
-    return {"frame": broad_side(source).axes().ravel(), "turn": (np.eye(3) if turn is None else turn).ravel()}
+    rotation = rotation_between(source, target, target_to_source)
+    return {"frame": broad_side(source).axes().ravel(), "turn": (np.eye(3) if rotation is None else rotation).ravel()}
 
 
 def check_up(up: str | None) -> str | None:
-    """Return ``up`` when it is an axis, or ``None``: found from the shape."""
+    """Return ``up`` when it is an axis or ``None``, which leaves the choice to the page."""
     if up not in (None, "x", "y", "z"):
         raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
     return up

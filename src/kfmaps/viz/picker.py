@@ -33,15 +33,15 @@ from kfmaps.viz.page import check_up, map_record, shape_record, source_record, v
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
 
 _Matcher = Callable[[np.ndarray, Progress], Match]
-"""(landmarks (l, 2), progress) to a map, with all that is to be saved of it."""
+"""Returns the map to save, from landmarks (l, 2) and a progress callback."""
 
-_LONGEST_NAME = 60  # letters of a landmark's name
+_MAX_NAME = 60  # letters of a landmark's name
 
 
 class InteractiveMatcher:
-    """``matcher(landmarks, progress)``: the map of two shapes with these landmarks; each shape is prepared once.
+    """A function of landmarks and progress that matches two shapes; each shape is prepared once.
 
-    ``names`` is how messages call the shapes, ``paths`` are their files, which the saved map names.
+    ``names``: of the shapes in messages; ``paths``: their files, which the saved map names.
     """
 
     def __init__(
@@ -54,28 +54,28 @@ class InteractiveMatcher:
         for mesh, name in list(zip(self._meshes, self._names, strict=True))[len(self._shapes) :]:
             self._shapes.append(prepare(mesh, self._config, name=name, progress=progress))
         pairs = landmarks if len(landmarks) else None
-        found = match(*self._shapes, config=self._config, landmarks=pairs, progress=progress)
-        return with_files(found, self._paths, self._meshes)
+        result = match(*self._shapes, config=self._config, landmarks=pairs, progress=progress)
+        return with_files(result, self._paths, self._meshes)
 
 
 class _Cancelled(Exception):
-    """Raised through the progress call to leave a match that nobody wants any more."""
+    """Raised in the progress callback to end a cancelled match."""
 
 
 @dataclass(frozen=True)
 class MatchStatus:
-    """How a run stands."""
+    """The state of a run."""
 
     run: int = 0  # its number, from 1; 0 before the first
     state: str = "idle"
-    stage: str = ""  # what it is doing
-    fraction: float = 0.0  # how much of that is done, from 0 to 1
-    seconds: float = 0.0  # since it began, or what it took
-    error: str = ""  # why it failed
+    stage: str = ""  # the current one
+    fraction: float = 0.0  # of the stage that is done, from 0 to 1
+    seconds: float = 0.0  # since the start, or of the whole run
+    error: str = ""  # reason of a failure
 
 
 class Runs:
-    """Runs ``work(argument, progress)`` in a thread and keeps the last result."""
+    """Run ``work(argument, progress)`` in a thread, one run at a time, and keep the last result."""
 
     def __init__(self, work: Callable[[Any, Progress], object]) -> None:
         self._work = work
@@ -90,7 +90,7 @@ class Runs:
         """Begin a run."""
         with self._lock:
             if self._status.state == "running":
-                raise refuse("match", "one run at a time", "a run that has not ended", "wait, or cancel it")
+                raise refuse("match", "one run at a time", "a second one", "wait for the first, or cancel it")
             self._cancel.clear()
             self._began = time.monotonic()
             self._status = MatchStatus(run=self._status.run + 1, state="running", stage="starting")
@@ -99,19 +99,19 @@ class Runs:
         return self.status()
 
     def status(self) -> MatchStatus:
-        """Return how the last run stands now."""
+        """Return the state of the last run."""
         with self._lock:
             if self._status.state == "running":
                 return replace(self._status, seconds=time.monotonic() - self._began)
             return self._status
 
     def result(self) -> object:
-        """Return what the last run that was done returned; ``None`` before."""
+        """Return the result of the last run that was finished; ``None`` before."""
         with self._lock:
             return self._result
 
     def cancel(self, wait: float = 0.0) -> None:
-        """Ask the run to stop at its next progress call; wait for that at most ``wait`` seconds."""
+        """Stop the run at its next progress call; wait for that at most ``wait`` seconds."""
         self._cancel.set()
         thread = self._thread
         if thread is not None and wait:
@@ -131,7 +131,7 @@ class Runs:
             state = "cancelled"
         except (InvalidInput, NotConverged, ImportError, OSError, MemoryError) as problem:
             state, error = "failed", str(problem) or type(problem).__name__
-        except Exception as problem:  # a defect: the page shows it, the terminal where it was
+        except Exception as problem:  # a defect: the page shows the error, the terminal its traceback
             traceback.print_exc()
             state, error = "failed", f"{type(problem).__name__}: {problem}"
         with self._lock:
@@ -148,17 +148,17 @@ def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     ):
         remedy = "give pairs of 0-based vertex numbers, source first"
         raise refuse("landmarks", "a list of pairs of whole numbers", "something else", remedy)
-    found = np.array(pairs).reshape(-1, 2)
-    for column, mesh, side in zip(found.T, (source, target), ("source", "target"), strict=True):
+    landmarks = np.array(pairs).reshape(-1, 2)
+    for column, mesh, side in zip(landmarks.T, (source, target), ("source", "target"), strict=True):
         check_landmarks(column, len(mesh.vertices), f"landmarks on the {side}")
-    return found.astype(np.int64)
+    return landmarks.astype(np.int64)
 
 
 @dataclass(eq=False)
-class PickerServer:
+class PickerServer(LocalServer):
     """The server of the picker's page: it answers a fixed list of requests, writes two files and reads none.
 
-    ``server`` is not answering yet: call its ``serve_forever``. ``runs`` are the matches started from the page.
+    ``runs`` are the matches started from the page.
     """
 
     source: Mesh
@@ -166,11 +166,11 @@ class PickerServer:
     names: tuple[str, str]  # shown as text
     output: Path  # where the page writes landmarks
     force: bool = False  # whether existing files are replaced without asking
-    landmarks: np.ndarray | tuple = ()  # (l, 2): pairs to begin with, and ...
-    labels: Sequence[str] = ()  # their names
-    matcher: _Matcher | None = None  # computes a map from landmarks; without it the page cannot match
+    landmarks: np.ndarray | tuple = ()  # (l, 2): pairs to begin with
+    labels: Sequence[str] = ()  # names of these pairs
+    matcher: _Matcher | None = None  # without it the page cannot match
     map_output: Path | None = None  # where the page may write the map of a run; without it none is saved
-    up: str | None = None  # the shapes' vertical axis; ``None``: a good side is found
+    up: str | None = None  # the shapes' vertical axis; ``None``: the page chooses a good side
     port: int = 0
 
     def __post_init__(self) -> None:
@@ -187,10 +187,10 @@ class PickerServer:
             ("POST", "save"): self._save,
             ("POST", "save-map"): self._save_map,
         }
-        self.server = LocalServer(routes, self.port)
+        super().__init__(routes, self.port)
 
     def _page(self) -> str:
-        """The page, which speaks to the server it came from."""
+        """Return the page, which sends requests to this server."""
         data = {
             "kind": "picker",
             "up": check_up(self.up) or "auto",
@@ -207,40 +207,40 @@ class PickerServer:
         return document("picker.html.j2", title=title, data=data, connect=True)
 
     def close(self) -> None:
-        """Stop a running match and give the port back."""
+        """Stop a running match and release the port."""
         self.runs.cancel(wait=2.0)
-        self.server.close()
+        super().close()
 
     def _work(self, pairs: np.ndarray, progress: Progress) -> dict[str, object]:
-        """Match with landmarks, and keep the map; what the page shows of it."""
+        """Match with landmarks, keep the map, and return its record for the page."""
         source, target = self.source, self.target
         assert self.matcher is not None
-        found = self.matcher(pairs, progress)
-        points = check_map(found, len(source.vertices), len(target.vertices), partial=True)
-        self._maps.append(found)
+        match = self.matcher(pairs, progress)
+        points = check_map(match, len(source.vertices), len(target.vertices), partial=True)
+        self._maps.append(match)
         label = plural(len(pairs), "landmark")
         confidence = encode_floats(local_confidence(source, target, points))
-        verdict = verdict_record(found.verdict, found.confidence, len(pairs))
+        verdict = verdict_record(match.verdict, match.confidence, len(pairs))
         return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict}
 
     def _pairs(self, request: JsonObject) -> np.ndarray:
         return check_pairs(request.get("pairs"), self.source, self.target)
 
-    def _write(self, path: Path, request: JsonObject, write: Callable[[bool], None], **told: object) -> Reply:
-        # What this picker wrote itself it may replace; what was there before only when told to.
-        allowed = self.force or path in self._written or request.get("overwrite") is True
-        if path.exists() and not allowed:
+    def _write(self, path: Path, request: JsonObject, write: Callable[[bool], None], **fields: object) -> Reply:
+        # The picker may replace its own files, and others only when the user agrees.
+        may_replace = self.force or path in self._written or request.get("overwrite") is True
+        if path.exists() and not may_replace:
             return json_reply({"exists": str(path)}, 409)
-        write(allowed)
+        write(may_replace)
         self._written.add(path)
-        return json_reply({"saved": str(path), **told})
+        return json_reply({"saved": str(path), **fields})
 
     def _save(self, request: JsonObject) -> Reply:
         pairs, path = self._pairs(request), self.output
         names = request.get("names", ())
-        if not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in names):
-            wanted = f"texts of at most {_LONGEST_NAME} letters"
-            raise refuse("names", wanted, "something else", "give one for each pair")
+        if not all(isinstance(name, str) and len(name) <= _MAX_NAME for name in names):
+            expected = f"texts of at most {_MAX_NAME} letters"
+            raise refuse("names", expected, "something else", "give one for each pair")
 
         def write(force: bool) -> None:
             write_landmarks(path, pairs, names=names, force=force)

@@ -1,4 +1,4 @@
-"""The page of a match, and a browser or a notebook's cell to show it."""
+"""The page of a match, shown in a browser or in a notebook's cell."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ from kfmaps.viz.page import (
     views_record,
 )
 
-_SIGNATURES = 12  # wave kernel signatures shown, and ...
-_EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
-_MOST_TEXELS = 2048  # longer side of the largest picture of a texture in a page.
-_DPI = 72  # resolution of a picture
+_SIGNATURES = 12  # wave kernel signatures that are shown
+_EIGENFUNCTIONS = 100  # from which these are computed
+_MAX_TEXELS = 2048  # longer side of the largest texture in a page
+_DPI = 72  # resolution of the picture in a notebook
 _CELL = """<style>
 .kfmaps-cell {{ width: 100%; height: 600px; border: 0; color-scheme: light dark; }}
 {light} {{ color-scheme: light; }}
@@ -50,13 +50,13 @@ _CELL = """<style>
 <iframe class="kfmaps-cell" title="{title}" sandbox="allow-scripts allow-downloads" srcdoc="{page}"></iframe>"""
 _LIGHT = ('[data-jp-theme-light="true"]', ".vscode-light", '[theme="light"]')
 _DARK = ('[data-jp-theme-light="false"]', ".vscode-dark", '[theme="dark"]')
-"""How JupyterLab, Visual Studio Code and Colab mark a notebook that is light or dark; elsewhere the system decides."""
+"""Selectors of light and dark notebooks in JupyterLab, Visual Studio Code and Colab; elsewhere the system decides."""
 
 
 def _match_summary(match: Match) -> JsonObject:
-    """Return what a page tells of a match: settings, energies, residuals, times, outcome."""
+    """Return the facts about a match that a page lists: result, settings, energies, residuals, times."""
     fit, config = match.fit, getattr(match, "config", None)
-    told = {
+    facts = {
         "verdict": match.verdict,
         "confidence": match.confidence,
         "landmarks": len(match.landmarks) or None,
@@ -75,7 +75,7 @@ def _match_summary(match: Match) -> JsonObject:
         "times": dict(match.seconds),
         "settings": None if config is None else as_dict(config),
     }
-    return {name: value for name, value in told.items() if value not in (None, "", [], {})}
+    return {name: value for name, value in facts.items() if value not in (None, "", [], {})}
 
 
 def match_page(
@@ -88,11 +88,11 @@ def match_page(
     descriptors: bool = True,
     up: str | None = None,
 ) -> str:
-    """Return the page of a map with all that the match knows: one HTML file that needs nothing beside it.
+    """Return the page of a map with everything about the match: one HTML file that needs no other file.
 
-    ``source``: a file's picture is shown on both shapes; ``names``: what the page calls the shapes; ``truth``: for the
-    errors; ``descriptors``: whether to work out wave kernel signatures to show, which takes an eigensolve of each
-    shape; ``up``: the vertical axis; by default a good side is found.
+    ``source``: with the picture of a file, if any, for both shapes; ``names``: of the shapes on the page; ``truth``:
+    for the errors; ``descriptors``: whether wave kernel signatures are computed and shown, which takes an eigensolve of
+    each shape; ``up``: the vertical axis; by default the page chooses a good side.
     """
     up = check_up(up) or "auto"
     file = source if isinstance(source, MeshFile) else MeshFile(source)
@@ -102,16 +102,16 @@ def match_page(
     maps += [check_map(other, *sizes, f"alternative {i}") for i, other in enumerate(match.alternatives, 1)]
     labels = ["Best map", *(f"Alternative {i}" for i in range(1, len(maps)))]
     colors, overlap = position_colors(mesh), match.partial.overlap_source
-    if overlap is not None:  # what has no counterpart is grey
+    if overlap is not None:  # vertices without a counterpart are grey
         colors = np.where(overlap[:, None] > 0.5, colors, LOST_GREY)
     records = [map_record(mesh, target, points, label) for points, label in zip(maps, labels, strict=True)]
     records[0] |= _transferred(match, mesh, colors)
-    known = getattr(match, "local_confidence", None)
-    rows = {"confidence": [local_confidence(mesh, target, points) for points in maps[known is not None :]]}
-    rows["confidence"][:0] = [] if known is None else [np.asarray(known)]
+    confidence = getattr(match, "local_confidence", None)
+    values = {"confidence": [local_confidence(mesh, target, points) for points in maps[confidence is not None :]]}
+    values["confidence"][:0] = [] if confidence is None else [np.asarray(confidence)]
     if truth is not None:
-        rows["errors"] = list(vertex_errors(mesh, maps, truth.source, truth.target))
-    waves = [values.T for values in signatures(mesh, target)] if descriptors else [[], []]
+        values["errors"] = list(vertex_errors(mesh, maps, truth.source, truth.target))
+    waves = [rows.T for rows in signatures(mesh, target)] if descriptors else [[], []]
     data = {
         "kind": "result",
         "up": up,
@@ -121,7 +121,7 @@ def match_page(
         "target": shape_record(target, names[1]),
         "rotation": _rotation_by_map(mesh, target, maps[0]).ravel(),
         "maps": records,
-        **{name: [encode_floats(row) for row in values] for name, values in rows.items()},
+        **{name: [encode_floats(row) for row in rows] for name, rows in values.items()},
         "descriptors": [
             {"number": i, "source": encode_floats(a), "target": encode_floats(b)}
             for i, (a, b) in enumerate(zip(*waves, strict=True))
@@ -134,16 +134,16 @@ def match_page(
 
 
 def _textured(source: MeshFile, match: Match, target: Mesh) -> tuple[MeshFile, ...]:
-    """Both shapes with the source's picture; none where it has none."""
+    """Return both shapes with the source's picture; none where it has none."""
     if source.picture is None or len(source.mesh.faces) == 0 or len(target.faces) == 0:
         return ()
-    size = _MOST_TEXELS if max(decode_picture(source.picture).shape) > _MOST_TEXELS else None
-    own = textured(source, MeshFile(source.mesh), np.arange(len(source.mesh.vertices)), size=size)
-    return own, textured(source, MeshFile(target), match, size=size)
+    size = _MAX_TEXELS if max(decode_picture(source.picture).shape) > _MAX_TEXELS else None
+    textured_source = textured(source, MeshFile(source.mesh), np.arange(len(source.mesh.vertices)), size=size)
+    return textured_source, textured(source, MeshFile(target), match, size=size)
 
 
 def _texture_record(shape: MeshFile) -> dict[str, object]:
-    """The texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
+    """Return the texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
     assert shape.uv is not None
     assert shape.uv_faces is not None
     assert shape.picture is not None
@@ -153,34 +153,34 @@ def _texture_record(shape: MeshFile) -> dict[str, object]:
 
 
 def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, object]:
-    """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
+    """Return the source's colours and texture coordinates interpolated on the target; empty without a precise map."""
     if match.precise_map is None:
         return {}
-    given = (colors, LOST_GREY), (projected_uv(source.vertices), 0.0)
-    return painted_record(*(transfer(values, match, source.faces, lost) for values, lost in given))
+    painted = (colors, LOST_GREY), (projected_uv(source.vertices), 0.0)
+    return painted_record(*(transfer(values, match, source.faces, lost) for values, lost in painted))
 
 
 def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
-    known = np.asarray(target_to_source) >= 0
-    if not known.any():
+    """Return the rotation, (3, 3), that best maps the target's vertices to their images (Kabsch 1976)."""
+    matched = np.asarray(target_to_source) >= 0
+    if not matched.any():
         return np.eye(3)
-    return fit_rotation(target.vertices[known], source.vertices[np.asarray(target_to_source)[known]])[0]
+    return fit_rotation(target.vertices[matched], source.vertices[np.asarray(target_to_source)[matched]])[0]
 
 
 def signatures(source: Mesh, target: Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Return wave kernel signatures of both shapes at the same energies, (n_s, 12) and (n_t, 12), of unit area."""
-    most = min(_EIGENFUNCTIONS, len(source.vertices) - 1, len(target.vertices) - 1)
-    bases = [laplace_basis(unit_area(mesh), most) for mesh in (source, target)]
+    size = min(_EIGENFUNCTIONS, len(source.vertices) - 1, len(target.vertices) - 1)
+    bases = [laplace_basis(unit_area(mesh), size) for mesh in (source, target)]
     energies, sigma = wave_energies(_SIGNATURES, *bases)
     first, second = (np.asarray(wave_signature(basis, energies, sigma)) for basis in bases)
     return first, second
 
 
 def open_page(html: str) -> tuple[Path, bool]:
-    """Write a page where only its owner can read it and ask for a browser; return the file, and whether one came.
+    """Write a page that only its owner can read, and open it in a browser; return the file, and whether one opened.
 
-    The file stays: the browser may read it at any time later.
+    The file stays, since the browser may read it at any later time.
     """
     path = Path(tempfile.mkdtemp(prefix="kfmaps-")) / "page.html"
     path.write_text(html, encoding="utf-8")
@@ -190,11 +190,11 @@ def open_page(html: str) -> tuple[Path, bool]:
         return path, False
 
 
-def figure_html(figure: Figure, words: str) -> str:
-    """Return a figure as an image that a light and a dark notebook can show; ``words`` say what it is."""
+def figure_html(figure: Figure, description: str) -> str:
+    """Return a figure as an image for light and dark notebooks, with a ``description``."""
     buffer = io.BytesIO()
     make_transparent(figure).savefig(buffer, format="png", dpi=_DPI)
-    return f'<img alt="{escape(words)}" src="{data_address("image/png", buffer.getvalue())}">'
+    return f'<img alt="{escape(description)}" src="{data_address("image/png", buffer.getvalue())}">'
 
 
 def in_notebook() -> bool:
@@ -203,8 +203,8 @@ def in_notebook() -> bool:
 
 
 def cell_html(page: str, title: str) -> str:
-    """Return a page of :mod:`kfmaps.viz.page` as the HTML of a cell: a frame, with the layout for little room."""
-    light, dark = (", ".join(f"{mark} .kfmaps-cell" for mark in marks) for marks in (_LIGHT, _DARK))
+    """Return a page as the HTML of a cell: a frame, with the compact layout."""
+    light, dark = (", ".join(f"{selector} .kfmaps-cell" for selector in selectors) for selectors in (_LIGHT, _DARK))
     page = page.replace("<body>", '<body class="cell">', 1)
     return _CELL.format(light=light, dark=dark, title=escape(title), page=escape(page))
 

@@ -1,8 +1,8 @@
-"""A web server for one page and one user: this machine only, behind a random token.
+"""A web server for one page and one user, on this machine only, behind a random token.
 
-Any site open in the same browser can send requests to a local port. So a request must name this machine as
-its ``Host`` (a foreign one is a name that was rebound to it), come from this page (``Origin``), and know the
-token, which is in the address that only this program prints.
+Any site open in the same browser can send requests to a local port. So a request must name this machine as its
+``Host`` (another name was rebound to it), come from this page (``Origin``), and know the token. Only the address that
+this program prints has the token.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from kfmaps._records import JsonObject
 from kfmaps.viz.document import to_json
 
 _LOOPBACK = "127.0.0.1"
-_LARGEST_REQUEST = 1 << 20  # bytes of a request's body
-_MAX_SECONDS = 30.0  # for the head of a request, its body and the answer each, however the bytes are spread
-_WAITING_CONNECTIONS = 256  # the system turns away who comes when as many wait to be let in
+_MAX_REQUEST = 1 << 20  # bytes of a request's body
+_MAX_SECONDS = 30.0  # for the head of a request, for its body, and for the reply
+_MAX_WAITING = 256  # connections that wait to be accepted; the system refuses more
 
 _HEADERS = {
     "Cache-Control": "no-store",
@@ -44,7 +44,7 @@ _HEADERS = {
 
 @dataclass(frozen=True)
 class Reply:
-    """An answer: its status, type and bytes."""
+    """A reply: its status, media type and bytes."""
 
     status: int
     kind: str
@@ -52,31 +52,30 @@ class Reply:
 
 
 def page_reply(html: str) -> Reply:
-    """Return the answer that is a web page."""
+    """Return a web page as a reply."""
     return Reply(200, "text/html; charset=utf-8", html.encode())
 
 
 def json_reply(data: object, status: int = 200) -> Reply:
-    """Return the answer that is data for the page's script."""
+    """Return data for the page's script as a reply."""
     return Reply(status, "application/json", json.dumps(to_json(data), allow_nan=False).encode())
 
 
 _Routes = Mapping[tuple[str, str], Callable[[JsonObject], Reply]]
-"""(method, name below the token) to a function of the request's JSON (``None`` for GET)."""
+"""By (method, name below the token): a function of the request's JSON, which is empty for GET."""
 
 
 class LocalServer:
-    """Answer ``routes`` at ``address`` until stopped, one request after another.
+    """A server that answers ``routes`` at ``address``, one request after another, and refuses all else.
 
-    ``routes``: what is answered; everything else is refused. No file is ever read on a request. ``port``: 0 takes any
-    free one.
+    ``port``: 0 takes any free one. Nothing is answered before :meth:`serve_forever`.
     """
 
     def __init__(self, routes: _Routes, port: int = 0) -> None:
         self.routes = routes
         self.token = secrets.token_urlsafe(24)
         try:
-            self._socket = socket.create_server((_LOOPBACK, port), backlog=_WAITING_CONNECTIONS)
+            self._socket = socket.create_server((_LOOPBACK, port), backlog=_MAX_WAITING)
         except (OSError, OverflowError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise refuse("port", "a free port of this machine", f"{port} ({reason})", "give another") from error
@@ -86,7 +85,7 @@ class LocalServer:
 
     @property
     def address(self) -> str:
-        """Where the page is. Whoever knows it can use the page."""
+        """The address of the page. Whoever knows it can use the page."""
         return f"http://{_LOOPBACK}:{self.port}/{self.token}/"
 
     def serve_forever(self) -> None:
@@ -96,7 +95,7 @@ class LocalServer:
     async def _serve(self) -> None:
         application = Application([(".*", _Handler, {"site": self})], log_function=lambda _: None)
         limits = {"idle_connection_timeout": _MAX_SECONDS, "body_timeout": _MAX_SECONDS}
-        server = HTTPServer(application, no_keep_alive=True, max_body_size=_LARGEST_REQUEST, **limits)
+        server = HTTPServer(application, no_keep_alive=True, max_body_size=_MAX_REQUEST, **limits)
         server.add_socket(self._socket)
         try:
             await asyncio.wrap_future(self._stopped)
@@ -109,7 +108,7 @@ class LocalServer:
         self._stopped.set_result(None)
 
     def close(self) -> None:
-        """Give the port back. The server must not be answering any more."""
+        """Release the port. The server must have stopped."""
         self._socket.close()
 
 
@@ -122,11 +121,11 @@ class _Handler(RequestHandler):
             self.set_header(name, value)
 
     async def get(self) -> None:
-        answer = self._reply()
-        self.set_status(answer.status)
-        self.set_header("Content-Type", answer.kind)
-        _, slow = await asyncio.wait({self.finish(answer.body)}, timeout=_MAX_SECONDS)
-        if slow:  # who does not read the answer is not waited for
+        reply = self._reply()
+        self.set_status(reply.status)
+        self.set_header("Content-Type", reply.kind)
+        _, pending = await asyncio.wait({self.finish(reply.body)}, timeout=_MAX_SECONDS)
+        if pending:  # the client does not read the reply
             cast(HTTP1Connection, self.request.connection).close()
 
     post = get
@@ -136,14 +135,14 @@ class _Handler(RequestHandler):
         self.finish(json.dumps({"error": responses.get(status_code, "the request cannot be answered")}))
 
     def _reply(self) -> Reply:
-        refusal = self._foreign()
+        refusal = self._refusal()
         if refusal:
             return json_reply({"error": refusal}, 403)
         token, _, name = self.request.path.lstrip("/").partition("/")
         if not secrets.compare_digest(token.encode(), self.site.token.encode()):
             return json_reply({"error": "the address lacks this program's token"}, 403)
         method = self.request.method or ""
-        if self._from_other_site() and not (method == "GET" and name == "" and self._is_navigation()):
+        if self._is_cross_site() and not (method == "GET" and name == "" and self._is_navigation()):
             return json_reply({"error": "the request comes from another site"}, 403)
         route = self.site.routes.get((method, name))
         if route is None:
@@ -154,12 +153,12 @@ class _Handler(RequestHandler):
             return json_reply({"error": str(error)}, 400)
         except OSError as error:
             return json_reply({"error": f"{error.filename or 'file'}: {error.strerror or error}"}, 500)
-        except Exception as error:  # a defect: the page hears of it, the terminal where it was
+        except Exception as error:  # a defect: the page shows the error, the terminal its traceback
             traceback.print_exc()
             return json_reply({"error": f"{type(error).__name__}: {error}"}, 500)
 
-    def _foreign(self) -> str | None:
-        """Why the request does not come from this page; ``None`` when it does."""
+    def _refusal(self) -> str | None:
+        """Return why the request cannot come from this page; ``None`` when it can."""
         hosts = self.request.headers.get_list("Host")
         if hosts not in ([f"{_LOOPBACK}:{self.site.port}"], [f"localhost:{self.site.port}"]):
             return "the request was sent to another host's name"
@@ -167,13 +166,13 @@ class _Handler(RequestHandler):
             return "the request comes from another site"
         return None
 
-    def _from_other_site(self) -> bool:
+    def _is_cross_site(self) -> bool:
         return self.request.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin")
 
     def _is_navigation(self) -> bool:
-        """Whether a window opens the address, as from the file that holds it (:func:`forwarding_page`)."""
-        wanted = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
-        return all(self.request.headers.get(name) == value for name, value in wanted.items())
+        """Return whether a window opens the address, as from the file of :func:`forwarding_page`."""
+        expected = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+        return all(self.request.headers.get(name) == value for name, value in expected.items())
 
     def _json(self) -> JsonObject:
         # A plain form of another site cannot send this type without asking first.
@@ -181,7 +180,7 @@ class _Handler(RequestHandler):
         if kind != "application/json":
             raise refuse("request", "JSON", kind, "send application/json")
         try:
-            told = json.loads(self.request.body)
+            content = json.loads(self.request.body)
         except (ValueError, RecursionError) as error:
             raise refuse("request", "JSON", "something else", "send application/json") from error
-        return told if isinstance(told, dict) else {}
+        return content if isinstance(content, dict) else {}

@@ -1,4 +1,4 @@
-"""One surface or point cloud drawn into matplotlib axes: shaded, depth-sorted polygons."""
+"""Draw a surface or point cloud into matplotlib axes, as shaded polygons sorted by depth."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from kfmaps.viz.camera import View, automatic_view
 _LIGHTS = (((-0.45, 0.65, 0.75), 0.40), ((0.8, 0.1, 0.55), 0.12))
 """Direction (right, up, towards the camera) and strength of the lamps."""
 _AMBIENT = 0.58
-_SKY = 0.06  # how much lighter what faces up is than what faces down, before any lamp
-_ENOUGH = 24000  # triangles of even colour below which each is divided into four, so that none is seen as such
+_SKY = 0.06  # extra light of faces that look up, negative below
+_MIN_TRIANGLES = 24000  # with fewer, each triangle of one colour is divided into four, so that none can be seen
 
 
 def _is_watertight(faces: np.ndarray, count: int) -> bool:
-    """Return whether each edge of the faces is run through as often one way as the other: nothing shows inside."""
-    forth = half_edges(faces)
-    return np.array_equal(np.sort(forth @ [count, 1]), np.sort(forth @ [1, count]))
+    """Return whether faces run along each edge as often one way as the other; then no inside can be seen."""
+    edges = half_edges(faces)
+    return np.array_equal(np.sort(edges @ [count, 1]), np.sort(edges @ [1, count]))
 
 
 def shade(normals: np.ndarray) -> np.ndarray:
@@ -58,7 +58,7 @@ def draw_surface(
     view : View, optional
         By default :func:`~kfmaps.viz.automatic_view`.
     shading : bool
-        Whether lamps shine on it; without, the colours are drawn as they are.
+        Whether the surface is shaded; else the colours are drawn as they are.
 
     Returns
     -------
@@ -76,9 +76,9 @@ def draw_surface(
     ax.set_axis_off()
     ax.set_aspect("equal")
     middle, half = (points.max(axis=0) + points.min(axis=0)) / 2, np.ptp(points, axis=0) / 2
-    room = 1.03 * half + 1e-9 + 0.005 * half.max()
-    ax.set_xlim(middle[0] - room[0], middle[0] + room[0])
-    ax.set_ylim(middle[1] - room[1], middle[1] + room[1])
+    half_size = 1.03 * half + 1e-9 + 0.005 * half.max()
+    ax.set_xlim(middle[0] - half_size[0], middle[0] + half_size[0])
+    ax.set_ylim(middle[1] - half_size[1], middle[1] + half_size[1])
     if len(mesh.faces) == 0:
         order = np.argsort(points[:, 2])
         depth = (points[order, 2] - middle[2]) / max(half[2], 1e-300)
@@ -87,20 +87,20 @@ def draw_surface(
         ax.scatter(*points[order, :2].T, c=dots, s=size, linewidths=0, rasterized=True)
         return None
 
-    flat = face_normals(mesh) @ axes.T
-    facing = flat[:, 2]
+    flat_normals = face_normals(mesh) @ axes.T
+    facing = flat_normals[:, 2]
     faces, normals = mesh.faces, vertex_normals(mesh) @ axes.T
     if _is_watertight(faces, len(points)):
-        # Of a closed surface only the faces towards the camera show; its faces may all be turned inwards.
+        # Only the faces towards the camera can be seen on a closed surface; all faces may look inward.
         a, b, c = (points[faces[:, i]] for i in range(3))
         outward = np.sign(((a - points.mean(axis=0)) * np.cross(b - a, c - a)).sum()) or 1.0
-        seen = outward * facing > 0
-        faces, flat, facing = faces[seen], flat[seen], facing[seen]
+        is_visible = outward * facing > 0
+        faces, flat_normals, facing = faces[is_visible], flat_normals[is_visible], facing[is_visible]
     corners = normals[faces]
-    corners = corners * np.where((corners * flat[:, None]).sum(axis=2, keepdims=True) < 0, -1, 1)
+    corners = corners * np.where((corners * flat_normals[:, None]).sum(axis=2, keepdims=True) < 0, -1, 1)
     corners = corners * np.where(facing < 0, -1, 1)[:, None, None]
     parts = np.concatenate([points[faces], corners, colors[faces]], axis=2)
-    while 0 < len(parts) < _ENOUGH:
+    while 0 < len(parts) < _MIN_TRIANGLES:
         parts = _subdivide(parts)
     places, corners, blend = parts[:, :, :3], parts[:, :, 3:6], parts[:, :, 6:].mean(axis=1)
     if shading:

@@ -67,14 +67,14 @@ def batch(
     """
     check_required(require)
     processes = parse_workers(workers)
-    use_files = landmarks is None
+    landmark_files = landmarks is None
     lines = () if landmarks in (None, "none") else line_numbers(landmarks, "--landmarks")
     if graph is not None and pairs is not None:
         raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
     collection = find_collection(folder)
     listed = [] if graph is not None else listed_pairs(collection, pairs)
     config = settings.config(Config())
-    spec = RunSpec(config, seed, lines, use_files, identity)
+    spec = RunSpec(config, seed, lines, landmark_files, identity)
     with RunReport(quiet or json) as report:
         if graph is not None:
             with WorkerPool(processes, report.stage, log_to(output)) as pool:
@@ -94,8 +94,8 @@ def batch(
     for line in _describe_outcome(plan, outcome):
         report.say(line)
     if json:
-        left = len(plan.tasks) - len(outcome.results)
-        print_json({**summarize(outcome.results), "left": left, "output": outcome.files})
+        n_left = len(plan.tasks) - len(outcome.results)
+        print_json({**summarize(outcome.results), "left": n_left, "output": outcome.files})
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)
     if any(result.status == "failed" for result in outcome.results):
@@ -119,13 +119,13 @@ def describe_plan(plan: Plan) -> str:
     return ", ".join(parts)
 
 
-def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
+def _describe_outcome(plan: Plan, batch_result: BatchResult) -> list[str]:
     """The result of a run in lines of text."""
-    numbers = summarize(outcome.results)
+    numbers = summarize(batch_result.results)
     lines = []
-    if outcome.interrupted:
-        left = len(plan.tasks) - len(outcome.results)
-        lines.append(f"interrupted with {plural(left, 'pair')} left; the same command goes on")
+    if batch_result.interrupted:
+        n_left = len(plan.tasks) - len(batch_result.results)
+        lines.append(f"interrupted with {plural(n_left, 'pair')} left; the same command goes on")
     if failed := numbers["failed"]:
         lines.append(f"{plural(failed, 'pair')} failed; the summary says why, and --retry-failed tries again")
     if numbers["error_mean"] is not None:
@@ -134,20 +134,20 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
         lines.append(f"mean error {mean} {UNIT} over {pairs} (median pair {median}, worst {worst})")
     verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers["verdicts"].items() if verdict)
     lines += [f"verdicts: {verdicts}"] if verdicts else []
-    lines += [] if outcome.consistent is None else _describe_consistent(outcome.consistent)
-    return lines + [str(path) for path in outcome.files]
+    lines += [] if batch_result.consistent is None else _describe_consistent(batch_result.consistent)
+    return lines + [str(path) for path in batch_result.files]
 
 
-def _describe_consistent(found: ConsistentResult) -> list[str]:
+def _describe_consistent(consistent: ConsistentResult) -> list[str]:
     """Lines of text: which maps were replaced, by what and why."""
-    lines = ["no map replaced" if found.doubted else "all maps agree: none replaced"]
-    if found.before:
-        lines = [f"{plural(len(found.before), 'map')} replaced that others contradict"]
-    for r in found.results:
+    lines = ["no map replaced" if consistent.doubted else "all maps agree: none replaced"]
+    if consistent.before:
+        lines = [f"{plural(len(consistent.before), 'map')} replaced that others contradict"]
+    for r in consistent.results:
         if r.changed:
             errors = (
                 "" if r.error_mean is None else f"; error {percent(r.error_before)}, now {percent(r.error_mean)} {UNIT}"
             )
             lines.append(f"  {r.pair}: {r.changed}; {r.why}{errors}")
-    lines += [f"  doubted, kept: {line}" for line in found.doubted]
-    return lines + [f"  {note}" for note in found.notes]
+    lines += [f"  doubted, kept: {line}" for line in consistent.doubted]
+    return lines + [f"  {note}" for note in consistent.notes]

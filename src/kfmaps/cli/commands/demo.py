@@ -135,23 +135,23 @@ def _compare(
         config = replace(automatic, descriptors=replace(automatic.descriptors, n_eigenfunctions=size))
         sides = (("source", pair.source), ("target", pair.target))
         source, target = (prepare(mesh, config, name=side, progress=stages) for side, mesh in sides)
-        pairs, given = np.stack([pair.truth[rows], rows], axis=1), f"{landmarks} landmarks from the truth"
-        no17 = replace(Config.no17(), refinement=single.refinement)
+        pairs, landmark_text = np.stack([pair.truth[rows], rows], axis=1), f"{landmarks} landmarks from the truth"
+        no_kernel = replace(Config.no17(), refinement=single.refinement)
         methods = []
-        for stage, method, config, marks in (
+        for stage, method, config, match_landmarks in (
             ("automatic", "kernel", automatic, None),
             ("kernel", "kernel", automatic if shape == "partial" else single, pairs),
-            ("no kernel (NO17)", "no kernel (NO17)", no17, pairs),
+            ("no kernel (NO17)", "no kernel (NO17)", no_kernel, pairs),
         ):
             start = time.perf_counter()
             stages(stage, 0.0)
-            result = match(source, target, config, landmarks=marks, rng=seed)
+            result = match(source, target, config, landmarks=match_landmarks, rng=seed)
             stages(stage, 1.0)
             seconds = time.perf_counter() - start
             points, raw = result.target_to_source, result.fit.raw_target_to_source
             errors = geodesic_errors(pair.source, points, pair.truth)
             raw_error = None if raw is None else float(geodesic_errors(pair.source, raw, pair.truth).mean())
-            row = {"method": method, "given": "no landmarks" if marks is None else given}
+            row = {"method": method, "given": "no landmarks" if match_landmarks is None else landmark_text}
             row |= {"error": float(errors[points >= 0].mean()), "raw_error": raw_error, "verdict": result.verdict}
             methods.append(row | {"seconds": seconds, "points": points, "errors": errors})
     return pair, methods

@@ -54,20 +54,21 @@ def evaluate(
             raise refuse("--truth-part", "one truth", "another beside it", "leave one out")
     elif truth is None and symmetric is None and not identity:
         raise refuse("truth", "--truth SOURCE TARGET, --truth-part or --identity", "none of them", "say what is true")
-    found = load_map(map)
-    shape = map_mesh(source, found, "source", map)
+    match = load_map(map)
+    mesh_s = map_mesh(source, match, "source", map)
+    n_s, n_t = len(mesh_s.vertices), len(match.target_to_source)
     if truth_part is not None:
-        other = map_mesh(target, found, "target", map)
-        check_map(found, len(shape.vertices), len(other.vertices), str(map), partial=True)
-        whole, piece = (shape, other) if part == "target" else (other, shape)
-        accuracy = part_accuracy(shape, other, found, read_part_truth(truth_part, whole, piece), part)
+        mesh_t = map_mesh(target, match, "target", map)
+        check_map(match, n_s, len(mesh_t.vertices), str(map), partial=True)
+        whole, piece = (mesh_s, mesh_t) if part == "target" else (mesh_t, mesh_s)
+        accuracy = part_accuracy(mesh_s, mesh_t, match, read_part_truth(truth_part, whole, piece), part)
     else:
-        sizes = len(shape.vertices), len(found.target_to_source)
-        known = known_truth(truth, *sizes, symmetric=symmetric, identity=identity)
+        known = known_truth(truth, n_s, n_t, symmetric=symmetric, identity=identity)
         assert known is not None
-        other = _target(target, found, map)
-        check_map(found, len(shape.vertices), None if other is None else len(other.vertices), str(map), partial=True)
-        accuracy = assess(shape, found.target_to_source, known, place=precise_points(found, shape), target=other)
+        mesh_t = _target_mesh(target, match, map)
+        check_map(match, n_s, None if mesh_t is None else len(mesh_t.vertices), str(map), partial=True)
+        points = precise_points(match, mesh_s)
+        accuracy = assess(mesh_s, match.target_to_source, known, points=points, target=mesh_t)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:
@@ -76,15 +77,15 @@ def evaluate(
         Terminal().print(_table(accuracy))
 
 
-def _target(given: Path | None, found: Match, map: Path) -> Mesh | None:
-    """Return the target as given or as the map names it; ``None`` where there is no such file or it has changed."""
-    if given is not None:
-        return map_mesh(given, found, "target", map)
+def _target_mesh(path: Path | None, match: Match, map: Path) -> Mesh | None:
+    """Return the target, from ``path`` or as the map names it; ``None`` where that file is missing or has changed."""
     try:
-        mesh = map_mesh(None, found, "target", map)
+        mesh = map_mesh(path, match, "target", map)
     except InvalidInput:
+        if path is not None:
+            raise
         return None
-    return mesh if len(mesh.vertices) == len(found.target_to_source) else None
+    return mesh if path is not None or len(mesh.vertices) == len(match.target_to_source) else None
 
 
 def _table(accuracy: Accuracy) -> Table:
@@ -104,15 +105,15 @@ def _table(accuracy: Accuracy) -> Table:
     table.add_row(f"area under the curve to {100 * every[0].auc_limit:g} %", *(f"{e.auc:.4f}" for e in every))
     table.add_row("points without error", *(f"{100 * e.exact:.1f} %" for e in every))
     table.add_row("points compared", *(f"{len(e.errors):,}" for e in every))
-    beside = [""] * (precise is not None)
+    skipped = [""] * (precise is not None)
     for value, name, *empty in (
         (accuracy.matched if of_part or accuracy.matched < 1 else None, "of the truth's points matched"),
         (accuracy.overlap, "overlap, intersection over union"),
         (accuracy.missing, "missing of the whole's area"),
         (accuracy.coverage if smooth is None else None, "source covered"),
-        (smooth and smooth.coverage, "source covered, with neighbours", *beside),
-        (smooth and smooth.flipped_area, "target's area turned over", *beside),
-        (smooth and smooth.stretched_area, "edges stretched or shrunk twofold", *beside),
+        (smooth and smooth.coverage, "source covered, with neighbours", *skipped),
+        (smooth and smooth.flipped_area, "target's area turned over", *skipped),
+        (smooth and smooth.stretched_area, "edges stretched or shrunk twofold", *skipped),
     ):
         if value is not None:
             table.add_row(name, *empty, f"{100 * value:.1f} %")

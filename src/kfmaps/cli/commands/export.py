@@ -61,35 +61,35 @@ def export(
     formats = _MATRICES if functional or confidence else _SHAPES + _MAPS
     suffix = check_suffix(output, formats, "output", "choose one of these")
     check_output(output, force, (map, source, target, picture))
-    found = load_map(map)
-    whole = suffix in _SHAPES
+    match = load_map(map)
+    is_shape = suffix in _SHAPES
     shape_s, shape_t = (
-        map_mesh_file(given, found, side, map) if whole or given is not None else None
-        for given, side in ((source, "source"), (target, "target"))
+        map_mesh_file(path, match, side, map) if is_shape or path is not None else None
+        for path, side in ((source, "source"), (target, "target"))
     )
-    n_s, n_t = (None if one is None else len(one.mesh.vertices) for one in (shape_s, shape_t))
-    check_map(found, n_s, n_t, partial=True)
+    n_s, n_t = (None if file is None else len(file.mesh.vertices) for file in (shape_s, shape_t))
+    check_map(match, n_s, n_t, partial=True)
     if functional:
-        if not hasattr(found, "functional_map"):
+        if not hasattr(match, "functional_map"):
             raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")
-        write_values(output, Values(found.functional_map), force)
+        write_values(output, Values(match.functional_map), force)
     elif confidence:
-        values = getattr(found, "local_confidence", None)
+        values = getattr(match, "local_confidence", None)
         if values is None:
             raise refuse(str(map), "confidence per vertex", "none", "give the .npz or .mat file of a match")
         write_values(output, Values(np.asarray(values)), force)
     elif suffix in _MAPS:
-        save_map(output, found, force)
+        save_map(output, match, force)
     elif shape_s is None or shape_t is None:
         raise refuse("export", "both --source and --target for a shape", "one of them, or none", "name the two meshes")
     elif morph:
-        bent = found.registration.registered_vertices
-        if bent is None:
+        registered = match.registration.registered_vertices
+        if registered is None:
             raise refuse(str(map), "a non-rigid fit for --morph", "none", "give the .npz file of a match that kept it")
-        write_morph(output, shape_s, shape_t.mesh, np.asarray(bent), force)
+        write_morph(output, shape_s, shape_t.mesh, np.asarray(registered), force)
     elif suffix in (".obj", ".glb"):
-        write_textured(output, shape_s, shape_t, found, picture=picture, size=texture_size, force=force)
+        write_textured(output, shape_s, shape_t, match, picture=picture, size=texture_size, force=force)
     else:
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
-        write_colored(output, colors, shape_t.mesh, found, source=shape_s.mesh, force=force)
+        write_colored(output, colors, shape_t.mesh, match, source=shape_s.mesh, force=force)
     report_files(output, as_json=json)

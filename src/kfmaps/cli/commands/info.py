@@ -84,21 +84,21 @@ def info(
     meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH")], json: Json = False
 ) -> None:
     """Show what is in files: vertices, faces, components, area, genus, defects."""
-    refused, known = [], []
+    errors, files = [], []
     for path in meshes:
         try:
             with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the table shows the same
-                known.append(description(path, read_mesh_file(path)))
+                files.append(description(path, read_mesh_file(path)))
         except InvalidInput as error:
-            refused.append(str(error))
+            errors.append(str(error))
     if json:
-        for facts in known:
-            print_json(facts)
-    elif known:
-        Terminal().print(_table(known[0]) if len(meshes) == 1 else _overview(known))
-    if refused:  # after the others were printed
-        more = "" if len(refused) == 1 else f"; and {len(refused) - 1} more of the files cannot be read"
-        raise InvalidInput(refused[0] + more)
+        for file in files:
+            print_json(file)
+    elif files:
+        Terminal().print(_table(files[0]) if len(meshes) == 1 else _overview(files))
+    if errors:  # after the others were printed
+        others = "" if len(errors) == 1 else f"; and {len(errors) - 1} more of the files cannot be read"
+        raise InvalidInput(errors[0] + others)
 
 
 def _table(facts: JsonObject) -> Table:
@@ -109,13 +109,13 @@ def _table(facts: JsonObject) -> Table:
     return table
 
 
-def _overview(known: list[JsonObject]) -> Table:
+def _overview(files: list[JsonObject]) -> Table:
     """A row for each file, without what stands in brackets."""
     columns = ("vertices", "faces", "area", "components", "genus", "defects")
     table = Table()
     for name in ("file", *columns):
         table.add_column(name, justify="left" if name in ("file", "defects") else "right", overflow="fold")
-    for facts in known:
-        cells = _cells(facts)
-        table.add_row(Text(shown(facts["file"])), *(cells.get(name, "").partition(" (")[0] for name in columns))
+    for file in files:
+        cells = _cells(file)
+        table.add_row(Text(shown(file["file"])), *(cells.get(name, "").partition(" (")[0] for name in columns))
     return table

@@ -102,18 +102,18 @@ def pick(
     The settings are those of the matches that are run from the page.
     """
     check_up(up)
-    begun = landmarks or []
-    output = output or (begun[0] if len(begun) == 1 else Path("landmarks.txt"))
+    landmark_files = landmarks or []
+    output = output or (landmark_files[0] if len(landmark_files) == 1 else Path("landmarks.txt"))
     check_format(map_output)
     for path in (output, map_output):
         # The page asks before it replaces a file, the given landmarks too; it never replaces the shapes.
-        check_output(path, True, (source, target) if path is output else (source, target, *begun, output))
+        check_output(path, True, (source, target) if path is output else (source, target, *landmark_files, output))
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # kfmaps match shows them
         shapes = read_mesh(source), read_mesh(target)
-    known, labels = np.zeros((0, 2), dtype=np.int64), []
-    if begun:
-        known, labels = read_given_landmarks(begun, shapes, (source, target))
-    pairs = check_pairs(known.tolist(), *shapes)
+    initial, labels = np.zeros((0, 2), dtype=np.int64), []
+    if landmark_files:
+        initial, labels = read_given_landmarks(landmark_files, shapes, (source, target))
+    pairs = check_pairs(initial.tolist(), *shapes)
     names = (source.stem, target.stem)
     matcher = InteractiveMatcher(shapes, names, (source, target), settings.config(Config()))
     serving = PickerServer(*shapes, names, output, force, pairs, labels, matcher, map_output, up, port)
@@ -124,7 +124,7 @@ def pick(
 @with_settings
 def transfer(
     scans: Annotated[Path, typer.Argument(help="A folder of meshes.", metavar="SCANS")],
-    given: Annotated[
+    landmark_files: Annotated[
         list[Path],
         typer.Option(
             "--from",
@@ -152,53 +152,57 @@ def transfer(
     """
     processes = parse_workers(workers)
     collection = find_collection(scans)
-    templates = read_templates([*given, *(more or ())], collection)
+    templates = read_templates([*landmark_files, *(more or ())], collection)
     for name in keep or ():
         if name not in collection.shapes:
             raise refuse("--keep", f"the name of a scan in {scans}", repr(name), "check the spelling")
     corrections = read_corrections(output)
     templates = [
-        replace(one, points=correct_points(one.points, corrections.get(one.specimen, {}), one.mesh))
-        for one in templates
+        replace(specimen, points=correct_points(specimen.points, corrections.get(specimen.specimen, {}), specimen.mesh))
+        for specimen in templates
     ]
-    again = corrected_pairs(templates, collection, corrections, output / MATCHES / "corrected")
-    collection = replace(collection, landmarks={}, pair_landmarks=again)
+    corrected = corrected_pairs(templates, collection, corrections, output / MATCHES / "corrected")
+    collection = replace(collection, landmarks={}, pair_landmarks=corrected)
     spec = RunSpec(settings.config(Config()))
     plan = make_plan(collection, template_pairs(templates, collection), spec, output / MATCHES)
     with RunReport(quiet or json) as report:
         report.say(describe_plan(plan))
-        outcome = run_batch(
+        batch_result = run_batch(
             plan, workers=processes, name=scans.resolve().name, worst=0, callback=report.status, progress=report.stage
         )
-    if outcome.interrupted:
+    if batch_result.interrupted:
         raise typer.Exit(INTERRUPTED)
-    results = {r.pair: r for r in outcome.results}
-    own = {one.specimen: given_landmarks(one) for one in templates}
+    results = {r.pair: r for r in batch_result.results}
+    template_landmarks = {specimen.specimen: given_landmarks(specimen) for specimen in templates}
     study = []
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the results have them
-        for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
+        for name in dict.fromkeys([*template_landmarks, *collection.shapes]):  # templates first, in the order given
             maps = {pair.source: result for pair, result in results.items() if pair.target == name}
-            one = own.get(name) or carry_templates(templates, name, collection.shapes[name], maps, plan.folder)
-            study.append(correct_landmarks(one, corrections.get(name, {})))
+            specimen = template_landmarks.get(name) or carry_templates(
+                templates, name, collection.shapes[name], maps, plan.folder
+            )
+            study.append(correct_landmarks(specimen, corrections.get(name, {})))
         errors = template_errors(templates, results, plan.folder)
-        said = [one for one in study if one.misfit]
-        study = [replace(one, misfit="") if one.specimen in (keep or ()) else one for one in study]
+        misfits = [specimen for specimen in study if specimen.misfit]
+        study = [replace(specimen, misfit="") if specimen.specimen in (keep or ()) else specimen for specimen in study]
         if min_confidence is not None:
-            study = [drop_unsure(one, min_confidence) for one in study]
+            study = [drop_unsure(specimen, min_confidence) for specimen in study]
         files = write_study(output, study, landmark_suffix(templates[0].file))
         files.append(output / "shape" / "local_differences.csv")
         write_local_differences(files[-1], study, templates[0], results, plan.folder)
     lines = _describe_study(study, templates, errors)
-    for one in said:
-        told = "kept" if one.specimen in (keep or ()) else f"left out (--keep {one.specimen} keeps it)"
-        lines.append(f"{one.specimen} does not fit the others: {one.misfit}; {told}")
+    for specimen in misfits:
+        outcome_text = (
+            "kept" if specimen.specimen in (keep or ()) else f"left out (--keep {specimen.specimen} keeps it)"
+        )
+        lines.append(f"{specimen.specimen} does not fit the others: {specimen.misfit}; {outcome_text}")
     lines += map(str, files)
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for line in lines:
         report.say(line)
     if json:
         print_json({"summary": lines[: -len(files)], "output": files})
-    if any(result.status == "failed" for result in outcome.results):
+    if any(result.status == "failed" for result in batch_result.results):
         raise typer.Exit(FAILED)
 
 
@@ -219,50 +223,54 @@ def review(
         _serve(ReviewServer(study, port, up), {"output": [study]}, browser, json)
 
 
-def _serve(serving: PickerServer | ReviewServer, told: dict[str, object], browser: bool, json: bool) -> None:
+def _serve(page_server: PickerServer | ReviewServer, fields: dict[str, object], browser: bool, json: bool) -> None:
     """Print the address of the page, open it, and serve it until the user interrupts."""
     if json:
-        print_json({"address": serving.server.address, **told})
+        print_json({"address": page_server.address, **fields})
     else:
-        typer.echo(serving.server.address)
+        typer.echo(page_server.address)
         typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
-    opened = None
+    page_file = None
     try:
         if browser:  # by a file: the browser's command line, with a name in it, is there for all users to see
-            opened, found = open_page(forwarding_page(serving.server.address))
-            if not found and not json:
+            page_file, has_browser = open_page(forwarding_page(page_server.address))
+            if not has_browser and not json:
                 typer.echo("No browser was found; open the address yourself.")
-        serving.server.serve_forever()
+        page_server.serve_forever()
     except KeyboardInterrupt:
         if not json:
             typer.echo("Ended.")
     finally:
-        serving.close()
-        if opened is not None:
-            shutil.rmtree(opened.parent, ignore_errors=True)
+        page_server.close()
+        if page_file is not None:
+            shutil.rmtree(page_file.parent, ignore_errors=True)
 
 
 def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
     """Describe the result of a study in a few lines."""
-    carried = [one for one in study if one.verdict and not one.misfit]
+    transferred = [one for one in study if one.verdict and not one.misfit]
     names = templates[0].points.names
-    told = f"{len(names)} landmarks of {plural(len(templates), 'specimen')} carried to {plural(len(carried), 'other')}"
-    if carried:
-        sure = np.concatenate([one.points.confidence for one in carried])
+    told = (
+        f"{len(names)} landmarks of {plural(len(templates), 'specimen')} carried to {plural(len(transferred), 'other')}"
+    )
+    if transferred:
+        sure = np.concatenate([one.points.confidence for one in transferred])
         told += f", median confidence {np.nanmedian(sure):.2f}" if np.isfinite(sure).any() else ""
     lines = [told]
-    flagged = Counter((name, flag) for one in carried for name, flag in zip(names, one.open_flags, strict=True) if flag)
+    flagged = Counter(
+        (name, flag) for one in transferred for name, flag in zip(names, one.open_flags, strict=True) if flag
+    )
     if flagged:
         shown = 8  # of the flagged landmarks
         told = [f"{name} in {plural(count, 'specimen')} ({flag})" for (name, flag), count in flagged.most_common(shown)]
         told += [f"{len(flagged) - shown} other landmarks"] if len(flagged) > shown else []
-        lines.append(f"{flagged.total()} of {len(names) * len(carried)} flagged: {'; '.join(told)}")
-    elif carried:
+        lines.append(f"{flagged.total()} of {len(names) * len(transferred)} flagged: {'; '.join(told)}")
+    elif transferred:
         lines.append("none flagged")
     done = Counter(flag for one in study for flag in one.flags if flag in REVIEWED)
     if done:
         lines.append(", ".join(f"{done[word]} {word}" for word in REVIEWED) + " by hand")
-    missing = sum(int((one.points.vertices < 0).sum()) for one in carried)
+    missing = sum(int((one.points.vertices < 0).sum()) for one in transferred)
     if missing:
         lines.append(f"{missing} missing (NA)")
     if np.isfinite(errors).any():

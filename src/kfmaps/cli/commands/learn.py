@@ -96,26 +96,26 @@ def learn(
     stopped = state_file.is_file() and not force
     for path in {output, state_file, output.with_suffix(".png")}:
         check_output(path, force or stopped)
-    lines = [line - 1 for line in line_numbers(truth_landmarks, "--truth-landmarks")]
+    rows = [line - 1 for line in line_numbers(truth_landmarks, "--truth-landmarks")]
     requested = settings.config(_START)
     config = replace(requested, fit_samples=min(requested.fit_samples or _MAX_SAMPLES, _MAX_SAMPLES))
     with Stages(quiet or json) as stages:
         folder = find_collection(data)
-        drawn, judges = _draw(folder, shapes, held_out, numbers)
-        prepare = _preparation(folder, config, lines, identity, int(numbers["seed"]))
-        every = []
-        for i, pair in enumerate([*drawn, *judges]):
-            stages("preparing pairs", i / (len(drawn) + len(judges)))
-            every.append(prepare(pair))
-        pairs, held_out_pairs = every[: len(drawn)], every[len(drawn) :]
-        chosen = [word.strip() for word in parts.split(",")]
-        model = library.Model(config, pairs, chosen)
-        own = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs")}
-        options = library.TrainingOptions(**own)  # pyright: ignore
+        training_draw, held_out_draw = _draw(folder, shapes, held_out, numbers)
+        prepare = _preparation(folder, config, rows, identity, int(numbers["seed"]))
+        all_pairs = []
+        for i, pair in enumerate([*training_draw, *held_out_draw]):
+            stages("preparing pairs", i / (len(training_draw) + len(held_out_draw)))
+            all_pairs.append(prepare(pair))
+        pairs, held_out_pairs = all_pairs[: len(training_draw)], all_pairs[len(training_draw) :]
+        learned_parts = [word.strip() for word in parts.split(",")]
+        model = library.Model(config, pairs, learned_parts)
+        option_values = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs")}
+        options = library.TrainingOptions(**option_values)  # pyright: ignore
         # A run is continued by the same request; only its end may differ.
         request = {
-            "--learn": chosen,
-            "pairs": [pair.name for pair in every],
+            "--learn": learned_parts,
+            "pairs": [pair.name for pair in all_pairs],
             "--training": {name: numbers[name] for name in numbers if name not in ("epochs", "patience", "seconds")},
             "settings": settings_text(config, comments=False),
         }
@@ -175,18 +175,18 @@ def _draw(
     def draw(names: list[str], count: str, salt: int, option: str) -> list[Pair]:
         if len(names) < 2:
             raise refuse(option, "at least two shapes", f"{len(names)} of {len(folder.shapes)}", "choose others")
-        every = [Pair(a, b) for a in names for b in names if a != b]
-        order = np.random.default_rng([int(numbers["seed"]), salt]).permutation(len(every))
-        return [every[i] for i in order[: int(numbers[count])]]
+        all_pairs = [Pair(a, b) for a in names for b in names if a != b]
+        order = np.random.default_rng([int(numbers["seed"]), salt]).permutation(len(all_pairs))
+        return [all_pairs[i] for i in order[: int(numbers[count])]]
 
     names = matching(shapes)
     if held_out:
-        judges = matching(held_out)
-        names = [name for name in names if name not in judges]
+        held_out_names = matching(held_out)
+        names = [name for name in names if name not in held_out_names]
     else:
-        names, judges = names[: len(names) - len(names) // 4], names[len(names) - len(names) // 4 :]
+        names, held_out_names = names[: len(names) - len(names) // 4], names[len(names) - len(names) // 4 :]
     pairs = draw(names, "pairs", 0, "--shapes")
-    return pairs, [] if held_out == "none" else draw(judges, "held_out_pairs", 1, "--held-out")
+    return pairs, [] if held_out == "none" else draw(held_out_names, "held_out_pairs", 1, "--held-out")
 
 
 def _preparation(
@@ -208,17 +208,17 @@ def _preparation(
         return read_vertex_numbers(folder.truth[name])
 
     def prepared(pair: Pair) -> TrainingPair:
-        known = truth(pair.source), truth(pair.target)
-        counts = [len(side) for side in known]
+        truths = truth(pair.source), truth(pair.target)
+        counts = [len(side) for side in truths]
         if counts[0] != counts[1]:
             got = f"{counts[0]} and {counts[1]} lines"
             raise refuse(f"truth of {pair.source} and {pair.target}", "equally many lines", got, "give --shapes")
         if max(lines) >= counts[0]:
             got = f"{counts[0]} lines"
             raise refuse("--truth-landmarks", f"a truth of {max(lines) + 1} lines", got, "choose other lines")
-        landmarks = np.stack([side[lines] for side in known], axis=1)
+        landmarks = np.stack([side[lines] for side in truths], axis=1)
         sides = shape(pair.source), shape(pair.target)
-        return training_pair(*sides, config, landmarks=landmarks, truth=known, rng=seed)
+        return training_pair(*sides, config, landmarks=landmarks, truth=truths, rng=seed)
 
     return prepared
 
@@ -240,8 +240,8 @@ def _write(output: Path, best: Config, state: State) -> None:
     from kfmaps.learn import learning_figure
 
     if output.suffix == ".toml":
-        kept = state.best_epoch
-        head = f"# Learned from pairs of shapes; error in √area: {kept.held_out:.5f}, epoch {kept.number}.\n"
+        epoch = state.best_epoch
+        head = f"# Learned from pairs of shapes; error in √area: {epoch.held_out:.5f}, epoch {epoch.number}.\n"
         write_text(output, head + settings_text(best), force=True)
     with atomic_output(output.with_suffix(".png"), force=True) as temporary:
         learning_figure(state.history).savefig(temporary, dpi=150)

@@ -28,7 +28,6 @@ from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
-from kfmaps.matching.result import Match
 from kfmaps.settings import Chosen, with_settings
 from kfmaps.shape import prepare_both
 
@@ -70,11 +69,11 @@ def match(
 
     check_format(output)
     check_required(require)
-    reads = (source, target, *(landmarks or ()), *(descriptors or ()), *(truth or ()))
-    for path in reads:
+    inputs = (source, target, *(landmarks or ()), *(descriptors or ()), *(truth or ()))
+    for path in inputs:
         if not path.exists():
             raise refuse(str(path), "a file", "nothing there", "check the path")
-    check_output(output, force, reads)
+    check_output(output, force, inputs)
     if quiet:
         warnings.simplefilter("ignore", KfmapsWarning)
 
@@ -88,8 +87,8 @@ def match(
             check_landmarks(vertices, len(mesh.vertices), f"landmarks on {path}")
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
     check_match_memory(config, n_s, n_t, 0 if pairs is None else len(pairs))
-    own = None if descriptors is None else _own_descriptors(descriptors, meshes)
-    known = known_truth(truth, n_s, n_t)
+    own_descriptors = None if descriptors is None else _own_descriptors(descriptors, meshes)
+    correspondences = known_truth(truth, n_s, n_t)
 
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet or json) as stages:
@@ -97,35 +96,42 @@ def match(
         shapes = prepare_both(*meshes, config, names, _renamed(stages, names))
         for side, shape in zip(_SIDES, shapes, strict=True):
             seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
-        found = matched(shapes[0], shapes[1], config, landmarks=pairs, descriptors=own, rng=seed, progress=stages)
+        result = matched(
+            shapes[0], shapes[1], config, landmarks=pairs, descriptors=own_descriptors, rng=seed, progress=stages
+        )
         accuracy = None
-        if known is not None:
+        if correspondences is not None:
             stages("evaluation", 0.0)
-            accuracy = assess(meshes[0], found.target_to_source, known)
+            accuracy = assess(meshes[0], result.target_to_source, correspondences)
             stages("evaluation", 1.0)
-    found = with_files(found, (source, target), meshes)
-    found = replace(found, seconds={**seconds, **found.seconds})
-    save_map(output, found, force)
+    result = with_files(result, (source, target), meshes)
+    result = replace(result, seconds={**seconds, **result.seconds})
+    save_map(output, result, force)
     if json:
         errors = None if accuracy is None else accuracy.as_dict()
-        print_json({**summarize_match(found), "errors": errors, "output": output})
+        print_json({**summarize_match(result), "errors": errors, "output": output})
     elif not quiet:
-        Terminal().print(table(found, accuracy, output))
+        Terminal().print(table(result, accuracy, output))
     if view:
-        _show(found, output, truth)
-    if not meets(found.verdict, require):
+        from kfmaps.api import map_page
+        from kfmaps.viz.result_pages import open_page
+
+        path, has_opened = open_page(map_page(result, truth=truth)[0])
+        if not has_opened:
+            typer.echo(f"no browser was found; open {path.as_uri()}", err=True)
+    if not meets(result.verdict, require):
         raise typer.Exit(UNSURE)
 
 
 def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
     """Put "source" and "target" into the names of stages in place of files, whose paths may be long."""
-    short = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(_SIDES), strict=True)}
+    short_names = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(_SIDES), strict=True)}
 
-    def told(stage: str, done: float) -> None:
-        suffix = next((name for name in short if stage.endswith(name)), "")
-        stages(stage.removesuffix(suffix) + short.get(suffix, ""), done)
+    def report(stage: str, done: float) -> None:
+        suffix = next((name for name in short_names if stage.endswith(name)), "")
+        stages(stage.removesuffix(suffix) + short_names.get(suffix, ""), done)
 
-    return told
+    return report
 
 
 def _check_device(device: str) -> None:
@@ -146,7 +152,7 @@ def _check_device(device: str) -> None:
 
 def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tuple[np.ndarray, np.ndarray]:
     """The user's descriptors (n_s, d) and (n_t, d), checked."""
-    found = []
+    descriptors = []
     for file, mesh in zip(files, meshes, strict=True):
         values = read_values(file).array
         if values.dtype.kind not in "biuf":
@@ -154,17 +160,8 @@ def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tup
         values = values.astype(np.float64)
         values = values[:, None] if values.ndim == 1 else values
         check(values, f"descriptors {file}", shape=(len(mesh.vertices), None), remedy="give one row per vertex")
-        found.append(values)
-    if found[0].shape[1] != found[1].shape[1]:
-        got = f"{found[0].shape[1]} and {found[1].shape[1]}"
+        descriptors.append(values)
+    if descriptors[0].shape[1] != descriptors[1].shape[1]:
+        got = f"{descriptors[0].shape[1]} and {descriptors[1].shape[1]}"
         raise refuse("descriptors", "equally many columns on both shapes", got, "compute both alike")
-    return found[0], found[1]
-
-
-def _show(match: Match, output: Path, truth: tuple[Path, Path] | None) -> None:
-    from kfmaps.cli.commands.view import map_page
-    from kfmaps.viz.result_pages import open_page
-
-    path, opened = open_page(map_page(match, output, truth=truth))
-    if not opened:
-        typer.echo(f"no browser was found; open {path.as_uri()}", err=True)
+    return descriptors[0], descriptors[1]

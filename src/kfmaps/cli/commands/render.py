@@ -15,7 +15,6 @@ from kfmaps.batch.page import error_curve_of
 from kfmaps.batch.results import Result, all_results, summarize
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.work import map_path
-from kfmaps.cli.evaluation import known_truth
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh, TruthLists
 from kfmaps.cli.terminal import report_files
 from kfmaps.cli.words import UNIT, percent
@@ -54,18 +53,9 @@ def render_pair(
 ) -> None:
     """One map: the source, the target in the source's colours, and the error when the truth is given."""
     _check(output, force, (map, source, target, *(truth or ())))
-    found = load_map(map)
-    source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
-    known = known_truth(truth, len(source_mesh.vertices), len(target_mesh.vertices))
-    figure = render(
-        found,
-        source_mesh,
-        target_mesh,
-        truth=known,
-        limit=None if limit is None else check_positive(limit, "--limit") / 100,
-        title=title,
-        view=_view(towards, up),
-    )
+    if limit is not None:
+        limit = check_positive(limit, "--limit") / 100
+    figure = render(map, source, target, truth=truth, limit=limit, title=title, view=_view(towards, up))
     _save(figure, output, dpi, json, force)
 
 
@@ -90,30 +80,32 @@ def render_grid(
     _check(output, force)
     done = [r for r in _results(folder) if r.status == "done" and r.source == source]
     if not done:
-        known = ", ".join(sorted({r.source for r in _results(folder)})[:6]) or "none"
-        raise refuse("--source", f"a shape that was matched as a source ({known})", repr(source), "choose one of them")
+        sources = ", ".join(sorted({r.source for r in _results(folder)})[:6]) or "none"
+        raise refuse(
+            "--source", f"a shape that was matched as a source ({sources})", repr(source), "choose one of them"
+        )
     if targets is not None:
-        wanted = [name.strip() for name in targets.split(",") if name.strip()]
+        names = [name.strip() for name in targets.split(",") if name.strip()]
         by_name = {r.target: r for r in done}
-        missing = [name for name in wanted if name not in by_name]
-        if missing or not wanted:
+        missing = [name for name in names if name not in by_name]
+        if missing or not names:
             got = repr(missing[0]) if missing else "none"
             raise refuse("--targets", f"shapes that {source} was matched to", got, "check the spelling")
-        done = [by_name[name] for name in wanted]
-    centre, panels = None, []
+        done = [by_name[name] for name in names]
+    source_mesh, panels = None, []
     for result in done:
         path = map_path(folder, result.pair.key)
-        found = load_map(path)
-        if centre is None:
-            centre = map_mesh(None, found, "source", path)
-        mesh = map_mesh(None, found, "target", path)
-        check_map(found, len(centre.vertices), len(mesh.vertices), str(path), partial=True)
-        told = errors and result.error_mean is not None
+        match = load_map(path)
+        if source_mesh is None:
+            source_mesh = map_mesh(None, match, "source", path)
+        mesh = map_mesh(None, match, "target", path)
+        check_map(match, len(source_mesh.vertices), len(mesh.vertices), str(path), partial=True)
+        has_error = errors and result.error_mean is not None
         panels.append(
-            Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, found)
+            Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if has_error else result.target, mesh, match)
         )
-    assert centre is not None
-    figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
+    assert source_mesh is not None
+    figure = grid_figure(source_mesh, panels, label=source, columns=columns, title=title, view=_view(towards, up))
     _save(figure, output, dpi, json, force)
 
 
