@@ -219,7 +219,7 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
     assert (tmp_path / "pair.png").read_bytes().startswith(b"\x89PNG")
     with pytest.raises(InvalidInput, match="source= in Python"):
         kfmaps.load_map(tmp_path / "m.npz").plot()
-    with pytest.raises(InvalidInput, match="source= in Python"):
+    with pytest.raises(InvalidInput, match="Give source="):
         kfmaps.render(shuffled.target_to_source)
     with pytest.raises(InvalidInput, match="equal length"):
         kfmaps.render(shuffled, truth=([0, 1], [0]))
