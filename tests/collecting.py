@@ -1,6 +1,6 @@
 """A small collection on disk, in the layout of the remeshed benchmarks, for the tests of collections.
 
-As a program it matches one: ``python collecting.py FOLDER OUTPUT [consistent]``, to be killed by a test.
+As a program it matches one: ``python collecting.py FOLDER OUTPUT``, to be killed by a test.
 """
 
 from __future__ import annotations
@@ -108,15 +108,5 @@ AGREED = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True))
 """For maps that are made to agree: they are judged by SHOT too."""
 
 
-def agreed_plan(folder: Path, output: Path) -> Plan:
-    """The plan of all pairs of a folder, one way."""
-    names = sorted(find_collection(folder).shapes)
-    pairs = [Pair(a, b) for i, a in enumerate(names) for b in names[i + 1 :]]
-    return make_plan(find_collection(folder), pairs, RunSpec(AGREED, landmark_lines=LANDMARKS), output)
-
-
 if __name__ == "__main__":
-    if sys.argv[3:]:
-        run_batch(agreed_plan(Path(sys.argv[1]), Path(sys.argv[2])), workers=1, worst=0, consistent=True)
-    else:
-        run_batch(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)
+    run_batch(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)

@@ -12,7 +12,6 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_collection
 from conftest import blob
-from kfmaps._arrays import InvalidInput
 from kfmaps.batch import cache, work
 from kfmaps.batch.cache import (
     _samples_path,
@@ -42,6 +41,7 @@ def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
     config = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True, shot_radius=0.4))
     shape = prepare(blob(200), config, name="b")
     path = tmp_path / "entry.npz"
+    assert load_record(path, Shape) is None
     save_record(path, shape)
     back = load_record(path, Shape)
     assert back is not None
@@ -56,14 +56,7 @@ def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
         (back.shot, shape.shot),
     ):
         np.testing.assert_array_equal(a, b)
-
-
-def test_damaged_entries_count_as_none(tmp_path: Path) -> None:
-    path = tmp_path / "entry.npz"
-    assert load_record(path, Shape) is None
-    save_record(path, prepare(blob(200), CONFIG))
-    data = path.read_bytes()
-    path.write_bytes(data[: len(data) // 2])
+    path.write_bytes(path.read_bytes()[:-100])
     assert load_record(path, Shape) is None
 
 
@@ -178,27 +171,19 @@ def test_a_bad_shape_fails_its_pairs_alone_and_can_be_retried(tmp_path: Path) ->
     folder, out = write_collection(tmp_path / "c"), tmp_path / "out"
     good = (folder / "b1.off").read_bytes()
     touch(out / "maps" / "b0-b1.npz", "of an earlier mesh")
-    touch(folder / "b1.off", "OFF\n3 1 0\n0 0 0\n")
+    rows = "\n".join(" ".join(map(str, row)) for row in read_mesh(folder / "b1.off").vertices.tolist())
+    touch(folder / "b1.off", f"OFF\n200 0 0\n{rows}\n")  # a mesh that lost its faces is no point cloud
     results = done(plan_of(folder, out))
     assert sorted(r.status for r in results) == ["done"] * 2 + ["failed"] * 4
     assert {p.stem for p in (out / "maps").iterdir()} == {"b0-b2", "b2-b0"}
     failed = [r for r in results if r.status == "failed"]
     assert all("b1" in (r.source, r.target) and "shape b1 could not be prepared" in r.reason for r in failed)
+    assert all("faces" in r.reason for r in failed)
     assert plan_of(folder, out).todo == ()
     assert len(plan_of(folder, out, retry_failed=True).todo) == 4
     (folder / "b1.off").write_bytes(good)
     assert len(plan_of(folder, out).todo) == 4
     assert {r.status for r in done(plan_of(folder, out))} == {"done"}
-
-
-def test_a_mesh_that_lost_its_faces_is_no_point_cloud(tmp_path: Path) -> None:
-    folder = write_collection(tmp_path / "c", 2)
-    mesh = read_mesh(folder / "b1.off")
-    rows = "\n".join(" ".join(map(str, row)) for row in mesh.vertices.tolist())
-    touch(folder / "b1.off", f"OFF\n{len(mesh.vertices)} 0 0\n{rows}\n")
-    results = done(plan_of(folder, tmp_path / "out"))
-    assert [r.status for r in results] == ["failed"] * 2
-    assert all("shape b1 could not be prepared" in r.reason and "faces" in r.reason for r in results)
 
 
 def test_a_file_that_cannot_be_read_fails_its_pairs_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -327,9 +312,3 @@ def test_bad_truth_is_a_recorded_failure(tmp_path: Path, change, message: str) -
     result = done(plan_of(folder, tmp_path / "out"))[0]
     assert result.status == "failed"
     assert message in result.reason
-
-
-def test_identity_beside_files_is_refused(folder: Path, tmp_path: Path) -> None:
-    found = find_collection(folder)
-    with pytest.raises(InvalidInput, match="--identity"):
-        make_plan(found, [Pair("b0", "b1")], RunSpec(CONFIG, identity=True), tmp_path)

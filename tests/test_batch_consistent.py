@@ -1,22 +1,17 @@
-"""Batches whose maps are made to agree: what is replaced, kept, written, and found again after a kill."""
+"""Batches whose maps are made to agree: what is replaced, kept, written, and found again after an end."""
 
 from __future__ import annotations
 
 import csv
-import shutil
-import signal
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import psutil
 import pytest
 
-from collecting import AGREED, LANDMARKS, agreed_plan, done, write_collection
+from collecting import AGREED, LANDMARKS, done, write_collection
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.consistent import CONSISTENT, make_consistent, map_in_use
 from kfmaps.batch.jobs import WorkerPool
@@ -24,12 +19,9 @@ from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan, graph_pairs, make_plan
 from kfmaps.batch.results import Result, read_result, result_path
-from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.io import load_map, save_map
-from kfmaps.io.atomic import _UNFINISHED
-from test_batch_run import until
 
 GUARDS = ("kfmaps.collection.repair", "kfmaps.collection.synchronization")
 
@@ -227,54 +219,3 @@ def test_maps_of_parts_take_no_part(run: tuple[Plan, list[Result]]) -> None:
         assert (len(only.before), len(only.notes)) == (0, 1)
     finally:
         path.write_bytes(whole)
-
-
-def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> None:
-    """SIGKILL to the run and its workers, once at the evidence and once after it; then the same command again."""
-    folder, out = write_collection(tmp_path / "c", 5), tmp_path / "out"
-    plan = agreed_plan(folder, out)
-    done(plan)
-    path = map_path(out, "b1-b3")
-    found = load_map(path)
-    save_map(path, replace(found, target_to_source=np.random.default_rng(0).permutation(200)), force=True)
-    reference = tmp_path / "reference"
-    shutil.copytree(out, reference)
-    script = Path(__file__).with_name("collecting.py")
-    stages = {"evidence/*.npz": 2, "paths/*.npz": 1}
-    kept: dict[Path, tuple[bytes, int]] = {}
-    for pattern, enough in stages.items():
-        with subprocess.Popen([sys.executable, str(script), str(folder), str(out), "consistent"]) as process:
-            until(lambda p=pattern, n=enough: len(finished(out / CONSISTENT, p)) >= n)
-            for each in (*psutil.Process(process.pid).children(recursive=True), process):
-                each.kill()
-        assert process.returncode == -signal.SIGKILL
-        assert not (out / "results.csv").exists()
-        now = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in finished(out / CONSISTENT, pattern)}
-        assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept
-        kept |= now
-    pairs = {p: p.read_bytes() for p in (*(out / "pairs").iterdir(), *(out / "maps").iterdir())}
-    again = agreed_plan(folder, out)
-    assert again.todo == ()
-    last = run_batch(again, workers=1, worst=0, consistent=True)
-    assert {p: p.read_bytes() for p in pairs} == pairs
-    assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept  # nothing finished was made again
-    wanted = make_consistent(agreed_plan(folder, reference), list(done_results(reference)), Alone())
-
-    def plain(results: Sequence[Result]) -> list[Result]:
-        found = [replace(r, seconds={}, finished="", worker="", attempts=1) for r in results]
-        return sorted(found, key=lambda r: (r.source, r.target))
-
-    assert plain(last.results) == plain(wanted.results)
-    ours, theirs = (load_map(map_path(f / CONSISTENT, "b1-b3")).target_to_source for f in (out, reference))
-    np.testing.assert_array_equal(ours, theirs)
-    assert not list(out.rglob(f"{_UNFINISHED}*"))
-
-
-def finished(folder: Path, pattern: str) -> list[Path]:
-    """Files that are whole: what is being written has a name of its own."""
-    return [p for p in folder.glob(pattern) if not p.name.startswith(_UNFINISHED)]
-
-
-def done_results(folder: Path) -> list[Result]:
-    found = [read_result(p) for p in sorted((folder / "pairs").glob("*.json"))]
-    return [r for r in found if r is not None]

@@ -9,7 +9,6 @@ import pytest
 
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
-from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_pair_maps
 from kfmaps.collection.synchronization import MAX_LOG_ODDS
 from kfmaps.config import Search
@@ -63,8 +62,3 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
     assert (turned.target_to_source == np.arange(N)).mean() > 0.9
     with pytest.raises(InvalidInput, match="vertices 0 to 399"):
         match_from_map(a, b, KnownMap(rough + 1, "known"), LOCAL)
-
-
-def test_round_trips_of_true_maps_return(shapes: list[Shape]) -> None:
-    order = np.random.default_rng(1).permutation(N)
-    np.testing.assert_array_equal(compose_maps([order, invert_map(order, shapes[0].basis, N)]), np.arange(N))

@@ -1,8 +1,10 @@
-"""The lines of the pages for users run as they stand, one after the other, on what ``demo --write`` makes."""
+"""The lines of the pages for users run as they stand, on what ``demo --write`` makes, and so do the examples."""
 
 from __future__ import annotations
 
+import ast
 import re
+import runpy
 import shlex
 import shutil
 import warnings
@@ -14,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
 import kfmaps
 from commandline import run
@@ -29,6 +32,7 @@ DOCS = ROOT / "docs"
 ELSEWHERE = ("import bpy", "--morph", "pip install", "part.npz", ".xyz", "hero.glb")
 """Words of blocks that need another program, or files that are not there."""
 PAGES = sorted(page for page in DOCS.glob("*.md") if re.search(r"^(```python|kfmaps )", page.read_text(), re.MULTILINE))
+EXAMPLES = sorted((ROOT / "examples").glob("plot_*.py"))
 OWN_TESTS = ("index", "settings", "extend", "learning", "collections", "cluster", "skulls")
 PAGES = [page for page in PAGES if page.stem not in OWN_TESTS]
 
@@ -136,3 +140,16 @@ def test_every_page_is_in_a_table_of_contents() -> None:
     contents = "".join((DOCS / f"{name}.md").read_text(encoding="utf-8") for name in ("index", "guide", "background"))
     for page in DOCS.glob("*.md"):
         assert page.stem == "index" or f"\n{page.stem}\n" in contents, page.stem
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_runs_and_ends_in_a_checked_number(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    last = ast.parse(text).body[-1]
+    assert isinstance(last, ast.Assert)
+    assert any(isinstance(part, ast.Compare) for part in ast.walk(last.test))
+    if "kfmaps.learn" in text:
+        pytest.importorskip("torch")
+    pyplot.switch_backend("agg")
+    assert runpy.run_path(str(path))["__doc__"]
+    pyplot.close("all")

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import stat
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -40,20 +38,6 @@ def test_failure_leaves_everything_as_it_was(tmp_path: Path, error: type[BaseExc
     with pytest.raises(error):
         interrupted()
     assert [p.read_text() for p in tmp_path.iterdir()] == ([old] if old else [])
-
-
-def test_a_killed_process_leaves_no_half_file(tmp_path: Path) -> None:
-    """Even without the chance to tidy up, nothing has the name that was asked for."""
-    code = (
-        "import os, sys\n"
-        "from kfmaps.io import atomic_output\n"
-        "with atomic_output(sys.argv[1]) as temporary:\n"
-        "    temporary.write_text('half')\n"
-        "    os._exit(9)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code, str(tmp_path / "a.txt")], check=False, timeout=120)
-    assert done.returncode == 9
-    assert not (tmp_path / "a.txt").exists()
 
 
 def test_an_existing_file_needs_force(tmp_path: Path) -> None:

@@ -82,13 +82,6 @@ def test_textured_files(tmp_path: Path) -> None:
     assert imread(tmp_path / "out.png").shape[:2] == (1024, 1024)
 
 
-def test_a_source_without_texture_is_projected(tmp_path: Path) -> None:
-    source = blob(80)
-    write_textured(tmp_path / "out.obj", MeshFile(source), source, np.arange(80))
-    found = read_mesh_file(tmp_path / "out.obj")
-    np.testing.assert_array_equal(corner_uv(found), projected_uv(source.vertices)[source.faces])
-
-
 def test_a_picture_of_ones_own(tmp_path: Path) -> None:
     imsave(tmp_path / "skin.jpg", np.zeros((4, 4, 3)))
     source = globe()

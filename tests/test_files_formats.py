@@ -228,17 +228,6 @@ def test_round_trip_keeps_every_bit(places: np.ndarray, seed: int) -> None:
         close(found.colors, colors)
 
 
-def test_obj_counts_backwards_what_was_read_so_far() -> None:
-    """Vertices and texture coordinates each by themselves."""
-    text = (
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nf -3/-4 -2/-3 -1/-1\nv 5 5 5\nf -4/1 -3/2 -1/-2\n"
-    )
-    found = parse_obj(text.encode(), "a.obj")
-    assert found.mesh.faces.tolist() == [[0, 1, 2], [0, 1, 3]]
-    assert found.uv_faces is not None
-    assert found.uv_faces.tolist() == [[0, 1, 3], [0, 1, 2]]
-
-
 @pytest.mark.parametrize("suffix", [".off", ".obj", ".ply", ".PLY"])
 def test_files_round_trip(tmp_path: Path, suffix: str) -> None:
     mesh, colors = blob(80), np.random.default_rng(1).random((80, 3))

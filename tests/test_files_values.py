@@ -234,17 +234,6 @@ def test_a_long_label_beside_a_fraction_is_kept(tmp_path: Path) -> None:
     assert read_values(tmp_path / "a.csv").array.tolist() == [[2.0**60, 0.5], [1e20, 0.25]]
 
 
-def test_landmarks_of_a_vts_file_count_from_one(tmp_path: Path) -> None:
-    pairs = np.array([[0, 4], [7, 2]])
-    write_landmarks(tmp_path / "a.vts", pairs)
-    assert (tmp_path / "a.vts").read_text().split("\n")[1:3] == ["1 5", "8 3"]
-    np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
-    (tmp_path / "a.vts").write_text("1 5\n8 3\n")
-    np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
-    with pytest.raises(InvalidInput, match=r"from 1 on, got 0 5\. Check the numbers; are they counted from 0"):
-        read_landmarks(tmp_path / "b.vts" if (tmp_path / "b.vts").write_text("0 5\n") else tmp_path)
-
-
 @pytest.mark.parametrize("suffix", [".txt", ".csv"])
 def test_one_long_label_does_not_take_its_room_for_all(tmp_path: Path, suffix: str) -> None:
     """An array of texts gives each the room of the longest: a file of a megabyte would take gigabytes."""

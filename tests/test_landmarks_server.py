@@ -1,5 +1,6 @@
 """The landmark picker's server: who is refused, and what the page can do."""
 
+import http.client
 import json
 import os
 import signal
@@ -9,7 +10,8 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, closing, suppress
+from contextlib import closing, suppress
+from dataclasses import replace
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -20,14 +22,16 @@ import numpy as np
 import pytest
 from tornado.http1connection import HTTP1Connection
 
+from collecting import CONFIG
 from commandline import run
+from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps._progress import Progress
 from kfmaps.datasets import sphere
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
 from kfmaps.matching.result import Match
-from kfmaps.viz.picker import PickerServer, Runs, check_pairs
+from kfmaps.viz.picker import InteractiveMatcher, PickerServer, Runs
 from kfmaps.viz.server import _LOOPBACK, LocalServer, page_reply
 from serving import Client
 
@@ -60,22 +64,19 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
 # Who is refused -------------------------------------------------------------------------------------------
 
 
-def test_listens_on_this_machine_only(serve: Serve) -> None:
-    client = serve()
+def test_listens_on_this_machine_only_by_long_tokens_that_differ(serve: Serve) -> None:
+    clients = [serve() for _ in range(3)]
+    assert len({client.path for client in clients}) == 3
+    assert min(len(client.path) for client in clients) >= 32
+    client = clients[0]
     assert client.get().status == 200
     # Loopback is all of 127.0.0.0/8; the server listens on one address of it, so not on every interface.
     with pytest.raises(OSError), socket.create_connection(("127.0.0.2", client.port), timeout=2):
         pass
 
 
-def test_tokens_are_long_and_differ(serve: Serve) -> None:
-    tokens = {serve().path for _ in range(3)}
-    assert len(tokens) == 3
-    assert min(map(len, tokens)) >= 32
-
-
 @pytest.mark.parametrize("path", ["/", "", "/progress", "/x/", "/{token}x/", "/{short}/", "//{token}x/", "/%C3%A9/"])
-def test_requests_without_the_token_are_refused(serve: Serve, path: str) -> None:
+def test_requests_without_the_token_are_refused(serve: Serve, tmp_path: Path, path: str) -> None:
     client = serve()
     token = client.path.strip("/")
     path = path.replace("{token}", token).replace("{short}", token[:-1])
@@ -83,14 +84,9 @@ def test_requests_without_the_token_are_refused(serve: Serve, path: str) -> None
     assert answer.status == 403
     assert token.encode() not in answer.body
     assert b"positions" not in answer.body
-
-
-def test_writing_without_the_token_writes_nothing(serve: Serve, tmp_path: Path) -> None:
-    client = serve()
     body = json.dumps({"pairs": PAIRS}).encode()
-    for path in ("/save", "/wrong/save"):
-        assert client.ask("POST", path, body, {"Content-Type": "application/json"}).status == 403
-    assert not (tmp_path / "pairs.txt").exists()
+    assert client.ask("POST", f"{path}save", body, {"Content-Type": "application/json"}).status == 403
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -99,10 +95,6 @@ def test_writing_without_the_token_writes_nothing(serve: Serve, tmp_path: Path) 
 def test_other_hosts_names_are_refused(serve: Serve, host: str) -> None:
     client = serve()
     assert client.ask("GET", client.path, host=host.replace("{port}", str(client.port))).status == 403
-
-
-def test_this_machines_names_are_welcome(serve: Serve) -> None:
-    client = serve()
     for name in ("localhost", _LOOPBACK):
         own = f"{name}:{client.port}"
         assert client.ask("GET", client.path, headers={"Origin": f"http://{own}"}, host=own).status == 200
@@ -117,16 +109,11 @@ def test_other_origins_are_refused(serve: Serve, tmp_path: Path, origin: str) ->
     assert not (tmp_path / "pairs.txt").exists()
 
 
-def test_requests_that_another_site_caused_are_refused(serve: Serve) -> None:
-    client = serve()
-    for site in ("cross-site", "same-site"):
-        assert client.ask("GET", client.path, headers={"Sec-Fetch-Site": site}).status == 403
-    assert client.ask("GET", client.path, headers={"Sec-Fetch-Site": "none"}).status == 200
-
-
-def test_the_page_opens_from_the_file_that_holds_its_address(serve: Serve) -> None:
+def test_what_another_site_caused_is_refused_but_the_page_opens_from_the_file_with_its_address(serve: Serve) -> None:
     """A window that a file leads there comes from elsewhere, as browsers see it. It gets the page and nothing more."""
     client = serve()
+    for site, status in (("cross-site", 403), ("same-site", 403), ("none", 200)):
+        assert client.ask("GET", client.path, headers={"Sec-Fetch-Site": site}).status == status
     window = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
     assert client.ask("GET", client.path, headers=window).status == 200
     assert client.ask("GET", client.path + "progress", headers=window).status == 403
@@ -163,7 +150,10 @@ def test_answers_are_not_kept_framed_or_sniffed(serve: Serve) -> None:
 
 @pytest.mark.parametrize(
     "pairs",
-    [None, 5, "3 5", [[3]], [[3, 5, 1]], [[3, 160]], [[200, 5]], [[-1, 5]], [[3.0, 5]], [[True, 5]], [["3", 5]], {}],
+    [
+        *(None, "3 5", [[3]], [[3, 5, 1]], [[3, 160]], [[200, 5]], [[-1, 5]], [[3.0, 5]], [[True, 5]], [["3", 5]], {}),
+        *([[3, 5], [3, 6]], [[3, 5], [4, 5]]),  # a vertex twice
+    ],
 )
 def test_pairs_that_are_none_are_refused(serve: Serve, tmp_path: Path, pairs: Any) -> None:
     answer = serve().post("save", {"pairs": pairs})
@@ -203,10 +193,6 @@ def test_lengths_that_are_none_are_refused(serve: Serve, tmp_path: Path, length:
     assert client.get().status == 200
 
 
-def test_check_pairs_of_nothing_is_empty() -> None:
-    assert check_pairs([], SOURCE, TARGET).shape == (0, 2)
-
-
 # What the page can do -------------------------------------------------------------------------------------
 
 
@@ -225,6 +211,7 @@ def test_saved_file_is_read_back(serve: Serve, tmp_path: Path) -> None:
     # What it wrote itself it replaces without asking.
     assert client.post("save", {"pairs": PAIRS[:1]}).status == 200
     assert read_landmarks(path).tolist() == PAIRS[:1]
+    assert client.post("save", {"pairs": []}).json["count"] == 0
     assert [p.name for p in tmp_path.iterdir()] == ["pairs.txt"]
 
 
@@ -238,13 +225,8 @@ def test_existing_file_is_replaced_only_when_told(serve: Serve, tmp_path: Path) 
     assert client.post("save", {"pairs": PAIRS, "overwrite": 1}).status == 409
     assert client.post("save", {"pairs": PAIRS, "overwrite": True}).status == 200
     assert read_landmarks(path).tolist() == PAIRS
-
-
-def test_force_replaces_without_asking(serve: Serve, tmp_path: Path) -> None:
-    path = tmp_path / "pairs.txt"
-    path.write_text("7 7\n")
-    assert serve(force=True).post("save", {"pairs": PAIRS}).status == 200
-    assert read_landmarks(path).tolist() == PAIRS
+    assert serve(force=True).post("save", {"pairs": PAIRS[:1]}).status == 200
+    assert read_landmarks(path).tolist() == PAIRS[:1]
 
 
 def test_a_folder_that_went_away_is_told_in_words(serve: Serve, tmp_path: Path) -> None:
@@ -298,6 +280,9 @@ def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
         assert status["state"] == "failed"
         assert text in status["error"]
         assert client.get("map").status == 404
+    answer = serve().post("match", {"pairs": PAIRS})
+    assert answer.status == 400
+    assert "kfmaps match" in answer.json["error"]
 
 
 def test_match_can_be_cancelled(serve: Serve) -> None:
@@ -310,12 +295,6 @@ def test_match_can_be_cancelled(serve: Serve) -> None:
     client.post("match", {"pairs": PAIRS})
     client.post("cancel", {})
     assert client.settled()["state"] == "cancelled"
-
-
-def test_picker_without_a_matcher_says_so(serve: Serve) -> None:
-    answer = serve().post("match", {"pairs": PAIRS})
-    assert answer.status == 400
-    assert "kfmaps match" in answer.json["error"]
 
 
 def test_defect_ends_the_run_and_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
@@ -398,16 +377,6 @@ def test_the_browsers_command_line_does_not_have_the_address(tmp_path: Path, mon
     assert f"url={address}" in opened[1]
     assert opened[2] == "0o700" or os.name != "posix"
     assert not Path(opened[3]).exists()  # once the page is served no more
-
-
-def test_a_vertex_is_in_one_pair_only(serve: Serve) -> None:
-    for pairs, told in (
-        ([[3, 5], [3, 6]], "source: expected each vertex once, got 3"),
-        ([[3, 5], [4, 5]], "target: expected each vertex once, got 5"),
-    ):
-        answer = serve().post("save", {"pairs": pairs})
-        assert answer.status == 400
-        assert told in answer.json["error"]
 
 
 def test_names_are_saved_with_the_pairs_and_read_back(serve: Serve, tmp_path: Path) -> None:
@@ -497,24 +466,42 @@ def test_a_hundred_saves_at_once_are_all_answered(serve: Serve, tmp_path: Path) 
     assert [path.name for path in tmp_path.iterdir()] == ["pairs.txt"]
 
 
-def test_twenty_chunked_saves_at_once_are_all_answered(serve: Serve) -> None:
+def test_a_chunked_save_is_answered(serve: Serve) -> None:
     """A client that does not know the length before it sends says so, and is understood."""
-    client = serve()
-    head = f"POST {client.path}save HTTP/1.1\r\nHost: {_LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
-    body = json.dumps({"pairs": PAIRS}).encode()
-    with ExitStack() as stack:
-        connections = [
-            stack.enter_context(socket.create_connection((_LOOPBACK, client.port), timeout=60)) for _ in range(20)
-        ]
-        for connection in connections:
-            connection.sendall(f"{head}Transfer-Encoding: chunked\r\n\r\n{len(body):x}\r\n".encode())
-        for connection in connections:
-            connection.sendall(body + b"\r\n0\r\n\r\n")
-        replies = [connection.recv(4096) for connection in connections]
-    assert [reply.split()[1] for reply in replies] == [b"200"] * 20
+    client, body = serve(), json.dumps({"pairs": PAIRS}).encode()
+    headers = {"Content-Type": "application/json", "Transfer-Encoding": "chunked"}
+    connection = http.client.HTTPConnection(_LOOPBACK, client.port, timeout=60)
+    connection.request("POST", f"{client.path}save", iter([body]), headers, encode_chunked=True)
+    assert connection.getresponse().status == 200
+    connection.close()
 
 
 def test_a_refusal_is_heard(serve: Serve) -> None:
     client = serve()
     answer = client.ask("POST", "/elsewhere/save", b"x" * 500000)
     assert (answer.status, "token" in answer.json["error"]) == (403, True)
+
+
+# Matches that are run from the page -----------------------------------------------------------------------
+
+
+def test_shapes_are_prepared_once_and_the_settings_are_used() -> None:
+    marks = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
+    mesh = blob(300)
+    config = replace(CONFIG, refinement=None)
+    matcher = InteractiveMatcher((mesh, mesh), ("a", "b"), (Path("a.off"), Path("b.off")), config)
+    stages: list[str] = []
+    for some in (marks, marks[:3]):
+        found = matcher(some, lambda stage, done: stages.append(stage) if done == 1 else None)
+        np.testing.assert_array_equal(found.target_to_source, np.arange(300))
+        np.testing.assert_array_equal(found.landmarks, some)
+        assert (found.n_source, found.source_file.path) == (300, str(Path("a.off").absolute()))
+    assert [stages.count(f"eigenfunctions of {name}") for name in "ab"] == [1, 1]
+    assert stages.count("descriptors") == 2
+    assert "refinement" not in stages
+
+
+def test_bad_settings_are_told_before_the_page(tmp_path: Path) -> None:
+    write_mesh(tmp_path / "a.off", SOURCE)
+    words = [tmp_path / "a.off", tmp_path / "a.off", "-o", tmp_path / "p.txt", "--no-browser"]
+    assert "cubic" in run("landmarks", *words, "--kernel", "cubic").error

@@ -21,6 +21,7 @@ from kfmaps.io.bake import projected_uv, transfer_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.mapfile import with_files
+from kfmaps.io.transfer import transfer_by_functions
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchRegistration
 
@@ -36,6 +37,7 @@ def made(tmp_path_factory: pytest.TempPathFactory, poses: datasets.ExamplePair) 
     place = PointMap(pair.truth_faces, pair.truth_weights)
     found = Match(
         pair.truth,
+        functional_map=np.eye(30),  # of which only the size counts: the file's bases may have had other signs
         precise_map=place,
         local_confidence=np.linspace(0, 1, len(pair.truth)),
         registration=MatchRegistration(2 * pair.source.vertices),
@@ -215,3 +217,45 @@ def truth_files(made: types.SimpleNamespace, folder: Path) -> list[object]:
     np.savetxt(folder / "s.txt", made.pair.truth, fmt="%d")
     np.savetxt(folder / "t.txt", np.arange(len(made.pair.truth)), fmt="%d")
     return ["--truth", folder / "s.txt", folder / "t.txt"]
+
+
+def test_the_command_carries_functions_with_products(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """Smooth functions come out as they are at the true points, and the better the more products there are."""
+    values = made.pair.source.vertices - made.pair.source.vertices.mean(axis=0)
+    np.save(tmp_path / "x.npy", values)
+    errors = {}
+    for products in (2, 20):
+        run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy", "--products", products, "--force")
+        errors[products] = np.linalg.norm(np.load(tmp_path / "y.npy") - values[made.pair.truth])
+    size = np.linalg.norm(values[made.pair.truth])
+    assert errors[20] < 0.08 * size
+    assert errors[20] < 0.95 * errors[2]
+
+
+def test_a_permutation_of_the_target_permutes_what_is_carried(made: types.SimpleNamespace) -> None:
+    source, target = made.pair.source, made.pair.target
+    values = np.cos(3 * source.vertices[:, :1])
+    plain = transfer_by_functions(values, load_map(made.map), source, target, 10)
+    order = np.random.default_rng(0).permutation(len(target.vertices))
+    place = np.argsort(order)
+    moved = Match(made.pair.truth[order], functional_map=np.eye(30))
+    other = transfer_by_functions(values, moved, source, Mesh(target.vertices[order], place[target.faces]), 10)
+    np.testing.assert_allclose(other, plain[order], atol=2e-3 * np.abs(plain).max())
+
+
+def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    source, target = made.pair.source, made.pair.target
+    ones = np.ones((len(source.vertices), 1))
+    for values, products, words in (
+        (np.full(len(source.vertices), "arm"), 5, "to transfer labels"),
+        (ones, 31, "at most 30, the functions"),
+        (ones[:-1], 5, "one row per source vertex"),
+    ):
+        with pytest.raises(kfmaps.InvalidInput, match=words):
+            transfer_by_functions(values, load_map(made.map), source, target, products)
+    part = np.where(np.arange(len(target.vertices)) < 9, -1, made.pair.truth)
+    with pytest.raises(kfmaps.InvalidInput, match="a map of the whole target"):
+        transfer_by_functions(ones, Match(part), source, target, 5)
+    np.save(tmp_path / "x.npy", ones)
+    ran = run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy", "--products", 5, "--back")
+    assert "Leave one of them out" in ran.error
