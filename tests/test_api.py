@@ -17,7 +17,7 @@ import trimesh
 import kfmaps
 from collecting import CONFIG
 from conftest import blob
-from kfmaps import InvalidInput, KfmapsWarning, Mesh
+from kfmaps import InvalidInput, Mesh
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import write_landmarks
@@ -278,12 +278,6 @@ def test_each_call_takes_any_kind_of_map(shuffled: kfmaps.Match, tmp_path: Path)
         np.testing.assert_allclose(other, errors[0], rtol=0.03)  # paths between points are found otherwise
     part = np.where(ORDER < 100, ORDER, -1)
     np.testing.assert_array_equal(np.isnan(kfmaps.geodesic_errors(MESH, part, moved)), part < 0)
-
-
-def test_warnings_of_a_file_reach_the_caller(tmp_path: Path) -> None:
-    kfmaps.write_mesh(tmp_path / "torn.off", Mesh(V, F[3:]))
-    with pytest.warns(KfmapsWarning, match="boundary"):
-        as_mesh(tmp_path / "torn.off")
 
 
 # Notebooks ------------------------------------------------------------------------------------------------

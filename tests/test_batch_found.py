@@ -10,11 +10,13 @@ import pytest
 
 from collecting import CONFIG, plan_of, touch
 from kfmaps._arrays import InvalidInput
+from kfmaps.batch.cache import file_digest
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, find_collection, listed_pairs, natural
 from kfmaps.batch.plan import graph_pairs
 from kfmaps.batch.progress import WorkLeft
-from kfmaps.batch.run_spec import RunSpec, claim
+from kfmaps.batch.results import read_result
+from kfmaps.batch.run_spec import RunSpec, claim, read_run_spec
 from kfmaps.cli.options import line_numbers
 from kfmaps.cli.words import format_seconds
 from kfmaps.kernels.kernels import Linear
@@ -46,18 +48,14 @@ def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
     assert listed_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
 
 
-def test_shapes_of_the_top_folder_win(tmp_path: Path) -> None:
-    touch(tmp_path / "a.ply")
-    touch(tmp_path / "off" / "b.off")
-    assert list(find_collection(tmp_path).shapes) == ["a"]
-
-
 def test_what_cannot_be_a_collection(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match="no folder"):
         find_collection(tmp_path / "missing")
     with pytest.raises(InvalidInput, match="off/"):
         find_collection(tmp_path)
     touch(tmp_path / "a.off")
+    touch(tmp_path / "off" / "b.off")
+    assert list(find_collection(tmp_path).shapes) == ["a"]  # the top folder wins
     touch(tmp_path / "a.ply")
     with pytest.raises(InvalidInput, match=r"a\.off and a\.ply"):
         find_collection(tmp_path)
@@ -107,10 +105,6 @@ def test_keys_tell_pairs_apart(tmp_path: Path) -> None:
     if len(list(tmp_path.iterdir())) == 3:
         with pytest.raises(InvalidInput, match="tell pairs apart"):
             plan_of(tmp_path, tmp_path / "out")
-
-
-def test_natural_order() -> None:
-    assert sorted(["s10", "s9", "s1a", "10", "9"], key=natural) == ["9", "10", "s1a", "s9", "s10"]
 
 
 def test_digest_follows_what_matters() -> None:
@@ -200,7 +194,8 @@ def test_remaining_time_is_within_a_factor_of_one_and_a_half(order: str, workers
                 assert rest / 1.5 < estimate < rest * 1.5, (seed, done, estimate, rest)
 
 
-def test_durations_in_words() -> None:
+def test_durations_and_names_for_people() -> None:
+    assert sorted(["s10", "s9", "s1a", "10", "9"], key=natural) == ["9", "10", "s1a", "s9", "s10"]
     assert [format_seconds(s) for s in (7.4, 99, 130, 12000)] == ["7 s", "99 s", "2 min", "3 h 20 min"]
 
 
@@ -213,15 +208,12 @@ def test_long_names_have_files_all_the_same(tmp_path: Path) -> None:
         assert len(keys) == len(pairs)
         for key in keys:
             touch(tmp_path / f"{key}.json")
-            touch(tmp_path / f".unfinished-0123456789ab{key[:0]}.json")
             assert key.startswith(letter * 20)
     assert Pair("a" * 99, "b" * 99).key == f"{'a' * 99}-{'b' * 99}"
     assert Pair("a" * 100, "b" * 100).key != f"{'a' * 100}-{'b' * 100}"
 
 
 def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
-    from kfmaps.batch.cache import file_digest
-
     touch(tmp_path / "a.gltf", '{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 3, "uri": "a%20b.bin"}]}')
     seen = set()
     for content in ("123", "124", "123"):
@@ -234,9 +226,6 @@ def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("deep", ["[" * 100_000, '{"a":' * 100_000])
 def test_deep_results_and_settings(tmp_path: Path, deep: str) -> None:
-    from kfmaps.batch.results import read_result
-    from kfmaps.batch.run_spec import read_run_spec
-
     assert read_result(touch(tmp_path / "r.json", deep)) is None
     touch(tmp_path / "settings.json", deep)
     with pytest.raises(InvalidInput, match="settings of a run"):

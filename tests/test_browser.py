@@ -62,10 +62,7 @@ def test_page_from_the_disk_asks_for_nothing_else(page: Browser, tmp_path: Path)
     page.point("target", page.visible("target", np.arange(300), 1)[0])
     assert page.requests() == [(tmp_path / "page.html").as_uri()]
     assert page.run("return performance.getEntriesByType('resource').length") == 0
-    assert page.complaints() == []
-
-
-def test_names_and_settings_are_only_text(page: Browser) -> None:
+    # Names and settings are only text.
     assert page.text("name-source") == NASTY
     assert page.run("return document.title") == f"{NASTY} → b"
     page.until(lambda: NASTY in page.text("energies") and NASTY in page.text("other"))
@@ -73,15 +70,13 @@ def test_names_and_settings_are_only_text(page: Browser) -> None:
     assert page.complaints() == []
 
 
-def test_pointing_at_the_target_shows_its_match(page: Browser, poses: ExamplePair) -> None:
+def test_pointing_shows_matches(page: Browser, poses: ExamplePair) -> None:
+    """Of a target vertex, of a source vertex all that land there or on the nearest that is reached, of another map."""
     for vertex in page.visible("target", np.arange(0, len(poses.truth), 7), 4):
         page.point("target", vertex)
         page.until(lambda v=vertex: page.text("readout").startswith(f"target {v} → source {poses.truth[v]},"))
         assert page.run("return kfmaps.marks('source')") == [poses.truth[vertex]]
         assert page.run("return kfmaps.marks('target')") == [vertex]
-
-
-def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, poses: ExamplePair) -> None:
     count = np.bincount(poses.truth, minlength=len(poses.source.vertices))
     for vertex in page.visible("source", np.flatnonzero(count >= 2), 3):
         landing = np.flatnonzero(poses.truth == vertex)
@@ -89,16 +84,10 @@ def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, poses: 
         text = f"source {vertex} ← target {', '.join(map(str, landing))}"
         page.until(lambda text=text: page.text("readout") == text)
         assert sorted(page.run("return kfmaps.marks('target')")) == landing.tolist()
-
-
-def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Browser, poses: ExamplePair) -> None:
     missed = np.setdiff1d(np.arange(len(poses.source.vertices)), poses.truth)
     page.point("source", page.visible("source", missed, 1)[0])
     told = page.until(lambda: re.search(r"← target (\d+).*nearest that has one is (\d+)", page.text("readout")))
     assert poses.truth[int(told[1])] == int(told[2])
-
-
-def test_runner_up_has_its_own_matches(page: Browser, poses: ExamplePair) -> None:
     page.run(CHOOSE_MAP, "1")
     vertex = page.visible("target", np.arange(len(poses.truth)), 1)[0]
     page.point("target", vertex, click=True)
@@ -127,7 +116,7 @@ def test_colours_and_texture_are_carried_by_the_map(browser: Browser, poses: Exa
         assert views["other", mode] > 0.05
 
 
-def test_arrow_keys_turn_both_views_or_one(page: Browser) -> None:
+def test_arrow_keys_turn_both_views_or_one_and_the_turntable_until_it_is_switched_off(page: Browser) -> None:
     vertex = page.visible("target", np.arange(300), 1)[0]
     places = [page.place("target", vertex)]
     for linked in (True, False):
@@ -139,6 +128,14 @@ def test_arrow_keys_turn_both_views_or_one(page: Browser) -> None:
     assert places[2] == places[1]
     page.element("#reset").send_keys(Keys.ENTER)
     assert page.place("target", vertex) == places[0]
+    page.element("#spin").click()
+    assert page.element("#spin").get_attribute("aria-pressed") == "true"
+    page.until(lambda: page.place("target", vertex) != places[0])
+    page.element("#spin").click()
+    page.painted()
+    still = page.place("target", vertex)
+    page.painted()
+    assert page.place("target", vertex) == still
 
 
 def test_everything_can_be_reached_by_keyboard_and_has_a_name(page: Browser) -> None:
@@ -238,12 +235,6 @@ def test_text_stands_out_from_its_ground(page: Browser, scheme: str) -> None:
     assert min(ratios)[0] >= 4.5, min(ratios)
 
 
-def test_errors_have_a_scale_with_its_unit(page: Browser) -> None:
-    page.mode("error")
-    assert "√area" in page.text("legend-text")
-    assert (page.text("legend-low"), page.text("legend-high")) == ("0", "20")
-
-
 def test_difference_is_to_the_runner_up(page: Browser, poses: ExamplePair, tmp_path: Path) -> None:
     half = poses.truth.copy()
     upper = poses.target.vertices[:, 1] > np.median(poses.target.vertices[:, 1])
@@ -321,6 +312,9 @@ def test_verdict_comes_first_and_an_alternative_says_that_it_is_one(page: Browse
     page.run(CHOOSE_MAP, "0")
     assert not page.element("#alternative").is_displayed()
     assert page.text("facts") == best
+    page.mode("error")
+    assert "√area" in page.text("legend-text")
+    assert (page.text("legend-low"), page.text("legend-high")) == ("0", "20")
 
 
 def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:
@@ -341,20 +335,6 @@ def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, poses: E
             (x, y), (x_t, y_t) = browser.place("source", vertex), browser.place("target", vertex)
             assert abs(x - views[0] - (x_t - views[1])) <= 3
             assert abs(y - y_t) <= 3
-
-
-def test_turntable_turns_until_it_is_switched_off(page: Browser) -> None:
-    places = [page.place("target", 3)]
-    page.element("#spin").click()
-    assert page.element("#spin").get_attribute("aria-pressed") == "true"
-    page.until(lambda: page.place("target", 3) != places[0])
-    page.element("#spin").click()
-    page.painted()
-    still = page.place("target", 3)
-    page.painted()
-    assert page.place("target", 3) == still
-    page.element("#reset").click()
-    assert page.place("target", 3) == places[0]
 
 
 def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:

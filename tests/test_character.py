@@ -52,26 +52,17 @@ def same(mesh: Mesh) -> PointMap:
     return vertex_point_map(np.arange(len(mesh.vertices)), mesh)
 
 
-def test_the_identity_carries_a_character_exactly(source: MeshFile) -> None:
-    points = as_map(same(source.mesh), source.mesh)
-    made = transfer_character(source, MeshFile(source.mesh), points)
-    assert list(made.morphs) == ["swell", "nod"]
-    for name, moved in source.morphs.items():
-        np.testing.assert_allclose(made.morphs[name], moved, atol=1e-9)
-    own, theirs = skin_of(source), skin_of(made)
-    assert theirs.names == own.names
-    np.testing.assert_array_equal(theirs.parents, own.parents)
-    np.testing.assert_allclose(theirs.weights, own.weights, atol=1e-12)
-    np.testing.assert_allclose(theirs.matrices, own.matrices, atol=1e-9)
-
-
 def test_a_character_turns_and_grows_with_the_target(source: MeshFile) -> None:
     """A target that is rotated, scaled and moved has displacements and joints that are, too."""
     turn, shift = Rotation.from_rotvec([0.4, -2, 1]).as_matrix(), np.array([5.0, 1, -2])
     target = moved_by(source.mesh, turn, 3.0, shift)
     made = transfer_character(source, MeshFile(target), as_map(same(source.mesh), source.mesh))
+    assert list(made.morphs) == ["swell", "nod"]
     for name, moved in source.morphs.items():
         np.testing.assert_allclose(made.morphs[name], 3 * moved @ turn.T, atol=1e-8)
+    assert skin_of(made).names == skin_of(source).names
+    np.testing.assert_array_equal(skin_of(made).parents, skin_of(source).parents)
+    np.testing.assert_allclose(skin_of(made).weights, skin_of(source).weights, atol=1e-12)
     own, theirs = skin_of(source).matrices, skin_of(made).matrices
     np.testing.assert_allclose(theirs[:, :3, 3], 3 * own[:, :3, 3] @ turn.T + shift, atol=1e-8)
     np.testing.assert_allclose(theirs[:, :3, :3], turn @ own[:, :3, :3], atol=1e-8)
@@ -130,21 +121,6 @@ def test_joints_that_nothing_follows_move_along(source: MeshFile) -> None:
     target = moved_by(source.mesh, turn, 2.0, np.ones(3))
     made = transfer_character(MeshFile(source.mesh, skin=rig), MeshFile(target), np.arange(len(weights)))
     np.testing.assert_allclose(skin_of(made).matrices[:, :3, 3], 2 * matrices[:, :3, 3] @ turn.T + 1, atol=1e-7)
-
-
-def test_a_chain_that_nothing_follows_moves_with_its_end(pair: ExamplePair, source: MeshFile) -> None:
-    """Two joints above a foot, in one place with it: all three move as the foot does."""
-    own, foot = skin_of(source), skin_of(source).names.index("left foot")
-    n = len(own.names)
-    matrices = np.concatenate([own.matrices, own.matrices[[foot, foot]]])
-    parents = np.concatenate([own.parents, [-1, n]])
-    parents[foot] = n + 1
-    weights = np.hstack([own.weights, np.zeros((len(own.weights), 2))])
-    rig = MeshFile(source.mesh, skin=Skin((*own.names, "top", "middle"), parents, matrices, weights))
-    places = as_map(PointMap(pair.truth_faces, pair.truth_weights), source.mesh)
-    made = skin_of(transfer_character(rig, MeshFile(pair.target), places)).matrices
-    np.testing.assert_allclose(made[n], made[n + 1], atol=1e-12)
-    assert np.abs(made[n] - made[own.parents[foot]]).max() > 0.05, "the foot moves otherwise than the leg"
 
 
 def test_a_tip_moves_with_the_limb_that_it_ends(pair: ExamplePair, source: MeshFile) -> None:

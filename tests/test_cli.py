@@ -117,6 +117,8 @@ def test_required_verdicts() -> None:
         (["info", "a", "--rank", "3"], "No such option"),
         (["match", "a.off", "b.off", "--threads", "many"], "--threads"),
         (["view", "a.npz", "b.npz"], "unexpected extra argument"),
+        (["match", "a.ply", "b.ply", "--set"], "Option '--set' requires"),
+        (["evaluate", "m", "--truth", "a"], "Option '--truth' requires"),
     ],
 )
 def test_usage_is_one_line(words: list[str], told: str) -> None:

@@ -1,7 +1,5 @@
 """The gradient of the map that minimises an energy, against differences, for every kernel and every term."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,6 @@ from kfmaps.fmap.multiplication_operators import multiplication_operators, unpac
 from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import Elementwise, descriptor_term, laplacian_term, operator_term
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
-from kfmaps.kernels.transformed import Metric
 
 GUARDS = ("kfmaps.kernels.transformed",)
 
@@ -196,12 +193,3 @@ def test_geodesic_loss(case, rng):
 
 def loss(C, source, target, distances):
     return geodesic_loss(C, source.functions, target.functions, distances, 3.0).detach()
-
-
-def test_a_metric_of_tensors_is_the_metric_of_numbers(case):
-    _, _, F, G = case
-    matrix = ((0.5, 1.0), (1.0, -1.0), (0.0, 2.0))
-    kernel = Metric(Gaussian(0.3), matrix)
-    M = torch.tensor(matrix, dtype=torch.float64)
-    torch.testing.assert_close(kernel(F, G), Gaussian(0.3)(*(X @ M.T for X in (F, G))))
-    assert replace(kernel) == kernel

@@ -30,7 +30,7 @@ from kfmaps.io.bake import decode_picture, encode_png
 from kfmaps.io.mapfile import mesh_path
 from kfmaps.io.record import Picture
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
+from kfmaps.matching.result_groups import MatchFit, ShapeFile
 from kfmaps.viz import result_pages
 from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
 from kfmaps.viz.figures import position_colors
@@ -281,42 +281,18 @@ def test_signatures_do_not_depend_on_pose_or_unit() -> None:
     assert np.allclose(first, second, rtol=1e-5, atol=1e-6)
 
 
-def a_match() -> Match:
-    residuals = np.array([1.0, 0.5, 0.0625])
-    return Match(
-        target_to_source=np.zeros(4, np.int64),
-        functional_map=np.eye(2),
-        eigenvalues_source=np.arange(2.0),
-        eigenvalues_target=np.arange(2.0),
-        verdict="landmarks",
-        config=Config.single_fit(),
-        seconds={"solve": 0.5},
-        score=MatchScore(initialization="one fit"),
-        fit=MatchFit(
-            raw_functional_map=np.eye(2),
-            raw_target_to_source=np.zeros(4, np.int64),
-            status="converged",
-            steps=2,
-            residuals=residuals,
-            energies={"laplacian": 1.5},
-            rank=7,
-            n_operators=3,
-            kernel="Gaussian(500)",
-        ),
-        local_confidence=np.ones(4),
-    )
-
-
 def test_summary_of_a_match_is_json() -> None:
-    summary = _match_summary(a_match())
+    fit = MatchFit(residuals=np.array([1.0, 0.5, 0.0625]), energies={"laplacian": 1.5}, status="converged", steps=2)
+    found = Match(np.zeros(4, np.int64), config=Config.single_fit(), seconds={"solve": 0.5}, fit=fit)
+    summary = _match_summary(found)
     assert json.loads(json.dumps(summary)) == summary
     assert summary["residuals"] == [1, 0.5, 0.0625]
     assert summary["times"] == {"solve": 0.5}
     assert summary["energies"] == {"laplacian": 1.5}
     assert summary["settings"]["nystrom"]["samples"] == Config.single_fit().nystrom.samples
     assert "confidence" not in summary
-    assert _match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
-    assert "energies" not in _match_summary(replace(a_match(), fit=MatchFit()))
+    assert _match_summary(replace(found, confidence=0.25))["confidence"] == 0.25
+    assert "energies" not in _match_summary(replace(found, fit=MatchFit()))
 
 
 def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:
