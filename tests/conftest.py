@@ -154,6 +154,20 @@ def interruptible() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
+@pytest.fixture
+def workers_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The workers of a collection are threads of this process: they start in a moment, which processes do not."""
+    from distributed import Client, LocalCluster
+
+    @contextlib.contextmanager
+    def local_workers(_count: int | None) -> Iterator[Client]:
+        options = {"processes": False, "n_workers": 1, "threads_per_worker": 1, "dashboard_address": None}
+        with LocalCluster(protocol="inproc://", **options) as cluster, Client(cluster) as client:
+            yield client
+
+    monkeypatch.setattr("kfmaps.batch.jobs._local_workers", local_workers)
+
+
 Value = TypeVar("Value")
 
 

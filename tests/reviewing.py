@@ -22,6 +22,11 @@ from kfmaps.viz.landmark_review import ReviewServer
 N = 300
 AT = np.array([10, 100, 150, 220, 290])
 LABELS = tuple("abcde")
+QUICK = (
+    *("--set", "basis.n_eigenfunctions=30", "--set", "search.candidates=1", "--set", "search.n_sign_functions=2"),
+    *("--set", "search.match_extremities=false", "--set", "registration=none", "--workers", "1"),
+)
+"""Options with which a pair of the study is matched in a moment."""
 
 
 @pytest.fixture

@@ -15,6 +15,8 @@ from kfmaps.io import load_map, read_vertex_numbers, write_landmarks
 
 GUARDS = ("kfmaps.matching.memory",)
 
+pytestmark = pytest.mark.usefixtures("workers_here")
+
 SIZES = (
     *("--set", "basis.n_eigenfunctions=20", "--set", "descriptors.n_spectral=20"),
     *("--set", "descriptors.n_eigenfunctions=40", "--set", "nystrom.samples=60"),

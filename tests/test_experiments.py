@@ -278,11 +278,15 @@ def test_figure3_conclusions() -> None:
     assert "not as good for every" in far[1]
 
 
-def test_figure2_verdict() -> None:
+def test_figure2_and_figure5_conclusions() -> None:
     assert figure2.verdict(0.009, 0.001) == "reproduced."
     assert "the squared error or λ" in figure2.verdict(0.05, 0.005)
     assert figure2.verdict(0.2, 0.005).endswith("means λ_k / λ_1.")
     assert figure2.verdict(0.2, 0.05) == "not reproduced."
+    means = dict.fromkeys(figure5.kernels(), 5.0)
+    sharpest = f"Gaussian, γ = {max(figure5.GAMMAS):g}"
+    assert "as in the paper" in figure5.conclusion(means | {sharpest: 4.0})
+    assert "not always better" in figure5.conclusion(means | {sharpest: 6.0})
 
 
 def test_figure4_conclusions() -> None:
@@ -301,13 +305,6 @@ def test_figure4_conclusions() -> None:
     later = figure4.conclusions(panels(0.13, 0.06, 0.03, 0.02), True)[-1]
     assert "takes 10 descriptors with the kernel and more than 100 without" in later
     assert "does not hold here" in later
-
-
-def test_figure5_conclusion() -> None:
-    means = dict.fromkeys(figure5.kernels(), 5.0)
-    sharpest = f"Gaussian, γ = {max(figure5.GAMMAS):g}"
-    assert "as in the paper" in figure5.conclusion(means | {sharpest: 4.0})
-    assert "not always better" in figure5.conclusion(means | {sharpest: 6.0})
 
 
 def test_figure7_conclusions() -> None:

@@ -80,13 +80,6 @@ def test_slicer_json(tmp_path: Path) -> None:
         read_landmark_sets(touch(tmp_path / "s.mrk.json", json.dumps(content)))
 
 
-def test_a_note_is_a_description_and_unselects(tmp_path: Path) -> None:
-    given = LandmarkSet(("a", "b"), np.zeros((2, 3)), notes=("", "low confidence"))
-    write_landmark_sets(tmp_path / "n.mrk.json", [given])
-    points = json.loads((tmp_path / "n.mrk.json").read_text())["markups"][0]["controlPoints"]
-    assert [(p["description"], p["selected"]) for p in points] == [("", True), ("low confidence", False)]
-
-
 @pytest.mark.parametrize(("space", "told"), [("0", "RAS"), ("1", "LPS"), ("LPS", "LPS"), ("RAS", "RAS"), (None, "RAS")])
 def test_slicer_fcsv(tmp_path: Path, space: str | None, told: str) -> None:
     head = "# Markups fiducial file version = 4.11\n" + (f"# CoordinateSystem = {space}\n" if space else "")
@@ -254,15 +247,14 @@ def test_landmarks_of_two_shapes_are_paired_by_name(tmp_path: Path) -> None:
     assert names == ["p", "r"]
     assert pairs.tolist() == [[10, 11], [500, 510]]
     one = kfmaps.Config.single_fit()
-    config = replace(one, basis=replace(one.basis, n_eigenfunctions=20))
+    config = replace(one, basis=replace(one.basis, n_eigenfunctions=20), refinement=None)
     match = kfmaps.match(tmp_path / "a.off", tmp_path / "b.ply", config, landmarks=files)
     np.testing.assert_array_equal(match.landmarks, pairs)
     with pytest.raises(InvalidInput, match="prepared shape"):
         kfmaps.match(kfmaps.prepare(mesh, config), tmp_path / "b.ply", config, landmarks=files)
-    words = ["match", tmp_path / "a.off", tmp_path / "b.ply", "-o", tmp_path / "m.npz", "-q"]
-    done = run(
-        *words, *(word for file in files for word in ("--landmarks", file)), "--set", "basis.n_eigenfunctions=20"
-    )
+    words = ["match", tmp_path / "a.off", tmp_path / "b.ply", "-o", tmp_path / "m.npz", "-q", "--preset", "single-fit"]
+    given = [word for file in files for word in ("--landmarks", file)]
+    done = run(*words, *given, "--set", "basis.n_eigenfunctions=20", "--set", "refinement=none")
     assert (done.status, done.stderr) == (0, "")
     np.testing.assert_array_equal(load_map(tmp_path / "m.npz").landmarks, pairs)
     assert "Give --landmarks twice" in run(*words, "--force", "--landmarks", files[0]).stderr
@@ -303,7 +295,8 @@ def test_curves_of_slicer_keep_their_type_and_name(tmp_path: Path) -> None:
     markups = json.loads(path.read_text())["markups"]
     assert [one["type"] for one in markups] == ["Fiducial", "Curve", "ClosedCurve"]
     assert [len(one["controlPoints"]) for one in markups] == [1, 3, 3]
-    assert [one["selected"] for one in markups[1]["controlPoints"]] == [True, False, True]
+    told = [(one["description"], one["selected"]) for one in markups[1]["controlPoints"]]
+    assert told == [("", True), ("look", False), ("", True)]
     (read,) = read_landmark_sets(path)
     assert read.names == ("tip", "curvebrow_1", "curvebrow_2", "curvebrow_3", *CURVED[2:5])
     np.testing.assert_array_equal(read.points, points[[0, 5, 1, 6, 2, 3, 4]])

@@ -22,7 +22,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
 from kfmaps.viz.landmark_review import ReviewServer
-from reviewing import AT, LABELS, N, rows_of
+from reviewing import AT, LABELS, QUICK, N, rows_of
 from serving import Client
 
 pytest_plugins = ["reviewing"]
@@ -138,6 +138,7 @@ def test_a_correction_moves_its_landmark_alone(study: Path) -> None:
         np.testing.assert_array_equal(a, b)
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_the_command_keeps_corrections_and_fits_maps_to_them(tmp_path: Path) -> None:
     scans = tmp_path / "scans"
     scans.mkdir()
@@ -146,7 +147,7 @@ def test_the_command_keeps_corrections_and_fits_maps_to_them(tmp_path: Path) -> 
     points = read_mesh(scans / "a.ply").vertices[AT]
     write_landmark_sets(tmp_path / "a.mrk.json", [LandmarkSet(LABELS, points, space="LPS")])
     words = ["landmarks", "transfer", scans, "--from", tmp_path / "a.mrk.json", "-o", tmp_path / "out", "-q"]
-    words += ["--workers", 1, "--set", "basis.n_eigenfunctions=30", "--keep", "b"]
+    words += [*QUICK, "--keep", "b"]
     assert run(*words).status == 0
     at = read_mesh(scans / "b.ply").vertices[5]
     made = ReviewServer(tmp_path / "out")

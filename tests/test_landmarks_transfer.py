@@ -21,6 +21,7 @@ from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.transfer_landmarks import (
     MAX_SPREAD,
     SpecimenLandmarks,
+    Template,
     carry_templates,
     drop_unsure,
     given_landmarks,
@@ -37,10 +38,7 @@ from kfmaps.io import load_map, read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.result import Match
-
-N = 300
-AT = np.array([10, 100, 150, 220, 290])
-LABELS = tuple("abcde")
+from reviewing import AT, LABELS, QUICK, N
 
 
 @pytest.fixture
@@ -67,10 +65,16 @@ def maps(folder: Path, pairs: list[tuple[str, str]], chance: float = 0.9) -> dic
     return found
 
 
+def carried(templates: list[Template], name: str, results: dict[Pair, Result], folder: Path) -> SpecimenLandmarks:
+    """The templates' landmarks on a scan, over the maps of all templates to it."""
+    own = {one.specimen: results[Pair(one.specimen, name)] for one in templates}
+    return carry_templates(templates, name, folder / "scans" / f"{name}.ply", own, folder)
+
+
 def test_one_template_over_true_maps(scans: Path, tmp_path: Path) -> None:
     (template,) = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
     results = maps(tmp_path, [("a", "b")])
-    one = carry_templates([template], "b", scans / "b.ply", {"a": results[Pair("a", "b")]}, tmp_path)
+    one = carried([template], "b", results, tmp_path)
     np.testing.assert_allclose(one.points.points, read_mesh(scans / "b.ply").vertices[AT], atol=1e-9)
     np.testing.assert_allclose(one.points.confidence, 0.9 * 0.8)
     assert one.flags == ("",) * 5
@@ -92,7 +96,7 @@ def test_the_distance_to_the_best_other_map(scans: Path, tmp_path: Path) -> None
     path = map_path(tmp_path, "a-b")
     turned = np.stack([np.roll(np.arange(N), 7), np.arange(N)[::-1]])
     save_map(path, Match(np.arange(N), alternatives=tuple(turned)), force=True)
-    one = carry_templates([template], "b", scans / "b.ply", {"a": results[Pair("a", "b")]}, tmp_path)
+    one = carried([template], "b", results, tmp_path)
     mesh = read_mesh(scans / "b.ply").vertices
     elsewhere = [mesh[np.argsort(other)[AT]] for other in turned]
     expected = np.min([np.linalg.norm(points - mesh[AT], axis=1) for points in elsewhere], axis=0)
@@ -106,7 +110,7 @@ def test_three_templates_outvote_one_that_is_off(scans: Path, tmp_path: Path) ->
     write_landmark_sets(tmp_path / "c.mrk.json", [wrong], force=True)
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abc"], collection)
     results = maps(tmp_path, [(name, "d") for name in "abc"] + [("a", "b"), ("c", "b")])
-    one = carry_templates(templates, "d", scans / "d.ply", {n: results[Pair(n, "d")] for n in "abc"}, tmp_path)
+    one = carried(templates, "d", results, tmp_path)
     surface = read_mesh(scans / "d.ply")
     np.testing.assert_allclose(one.points.points, surface.vertices[AT], atol=1e-3)
     assert one.flags == ("templates disagree", "", "", "", "")
@@ -130,7 +134,7 @@ def test_templates_agree_within_a_share_of_the_size_of_the_scan(scans: Path, tmp
     write_landmark_sets(tmp_path / "c.mrk.json", [moved], force=True)
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abc"], find_collection(scans))
     results = maps(tmp_path, [(name, "d") for name in "abc"])
-    one = carry_templates(templates, "d", scans / "d.ply", {n: results[Pair(n, "d")] for n in "abc"}, tmp_path)
+    one = carried(templates, "d", results, tmp_path)
     assert one.spread[0] > MAX_SPREAD, "in the unit of the scan, where it means nothing"
     np.testing.assert_allclose(one.points.confidence, 0.72)
     assert one.flags == ("",) * 5
@@ -144,7 +148,7 @@ def test_landmarks_that_a_template_lacks_come_from_the_others(scans: Path, tmp_p
     assert [one.points.names for one in templates] == [LABELS, LABELS]
     np.testing.assert_array_equal(templates[1].points.vertices, [10, -1, 150, 220, 290])
     results = maps(tmp_path, [("a", "c"), ("b", "c")])
-    one = carry_templates(templates, "c", scans / "c.ply", {n: results[Pair(n, "c")] for n in "ab"}, tmp_path)
+    one = carried(templates, "c", results, tmp_path)
     np.testing.assert_allclose(one.points.points, read_mesh(scans / "c.ply").vertices[AT], atol=1e-9)
     assert one.flags == ("",) * 5
 
@@ -155,9 +159,7 @@ def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
     results[Pair("a", "b")] = replace(results[Pair("a", "b")], verdict="unlikely", confidence=0.12)
     results[Pair("a", "c")] = Result("a", "c", "failed", "", "", reason="too large")
     study = [given_landmarks(templates[0])]
-    for name in "bcd":
-        path = scans / f"{name}.ply"
-        study.append(carry_templates(templates, name, path, {"a": results[Pair("a", name)]}, tmp_path))
+    study += [carried(templates, name, results, tmp_path) for name in "bcd"]
     flagged = replace(study[3], flags=("low confidence", "", "", "", ""))
     lines = _describe_study([study[0], flagged, flagged], templates, np.array([[0.1, 0.5, np.nan, 0.1, 0.1]]))
     assert lines == [
@@ -230,9 +232,10 @@ def test_tables_and_statistics(scans: Path, tmp_path: Path) -> None:
     assert '"look here"' in (out / "landmarks" / "d.mrk.json").read_text()
 
 
+@pytest.mark.usefixtures("workers_here")
 def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
     words = ["landmarks", "transfer", scans, "--from", tmp_path / "b.mrk.json", tmp_path / "a.mrk.json"]
-    more = ["-o", tmp_path / "out", "--workers", 1, "--set", "basis.n_eigenfunctions=30"]
+    more = ["-o", tmp_path / "out", *QUICK]
     done = run(*words, *more)
     assert done.status == 0, done.stderr
     assert "5 landmarks of 2 specimens carried to" in done.stdout
@@ -298,14 +301,14 @@ def test_points_of_a_curve_slide_and_landmarks_do_not(scans: Path, tmp_path: Pat
     (template,) = read_templates(curve_files(tmp_path, scans, "a"), find_collection(scans))
     assert template.points.names == (*LABELS, *(f"curvecrest_{k}" for k in range(1, 7)))
     results = maps(tmp_path, [("a", "d")])
-    one = carry_templates([template], "d", scans / "d.ply", {"a": results[Pair("a", "d")]}, tmp_path)
+    one = carried([template], "d", results, tmp_path)
     mesh = read_mesh(scans / "d.ply")
-    carried = mesh.vertices[[*AT, *RING]]
+    image = mesh.vertices[[*AT, *RING]]
     fixed = [0, 1, 2, 3, 4, 5, 10]
-    np.testing.assert_allclose(one.points.points[fixed], carried[fixed], atol=1e-9)
-    assert (np.linalg.norm(one.points.points - carried, axis=1)[6:10] > 0.01).all()
+    np.testing.assert_allclose(one.points.points[fixed], image[fixed], atol=1e-9)
+    assert (np.linalg.norm(one.points.points - image, axis=1)[6:10] > 0.01).all()
     bent_least = bending_energy_matrix(template.points.points)
-    before, after = (np.einsum("ia,ij,ja->", x, bent_least, x) for x in (carried, one.points.points))
+    before, after = (np.einsum("ia,ij,ja->", x, bent_least, x) for x in (image, one.points.points))
     assert after < before
     close = closest_points(one.points.points, mesh.vertices, mesh.faces)
     np.testing.assert_allclose(close.distances, 0, atol=1e-6)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -77,16 +78,17 @@ def test_without_maps_pairs_are_matched(shapes: dict[str, Shape]) -> None:
 
 
 def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
-    with pytest.raises(InvalidInput, match="shapes"):
-        kfmaps.match_collection({"s0": shapes["s0"]}, config=LOCAL)
-    with pytest.raises(InvalidInput, match="near, star or all"):
-        kfmaps.match_collection(shapes, graph="ring", config=LOCAL)
-    with pytest.raises(InvalidInput, match="nobody"):
-        kfmaps.match_collection(shapes, {("s0", "nobody"): np.arange(N)}, config=LOCAL)
-    with pytest.raises(InvalidInput, match="s0 → s1"):
-        kfmaps.match_collection(shapes, {("s0", "s1"): np.arange(N) + 1}, config=LOCAL)
-    with pytest.raises(InvalidInput, match="at least one"):
-        kfmaps.match_collection(shapes, {}, config=LOCAL)
+    two = {name: shapes[name] for name in ("s0", "s1")}
+    refused: list[tuple[dict[str, Shape], dict[str, Any], str]] = [
+        ({"s0": shapes["s0"]}, {}, "shapes"),
+        (shapes, {"graph": "ring"}, "near, star or all"),
+        (two, {"maps": {("s0", "nobody"): np.arange(N)}}, "nobody"),
+        (two, {"maps": {("s0", "s1"): np.arange(N) + 1}}, "s0 → s1"),
+        (two, {"maps": {}}, "at least one"),
+    ]
+    for some, more, told in refused:
+        with pytest.raises(InvalidInput, match=told):
+            kfmaps.match_collection(some, **more, config=LOCAL)
 
 
 def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
