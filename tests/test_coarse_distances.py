@@ -15,8 +15,8 @@ GUARDS = ("kfmaps.fmap.confidence",)
 
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:
-    monkeypatch.setattr(module, "_LARGE", 1000)
-    monkeypatch.setattr(module, "_COPY_VERTICES", points)
+    monkeypatch.setattr(module, "_MAX_EXACT", 1000)
+    monkeypatch.setattr(module, "_PROXY_VERTICES", points)
 
 
 def test_distances_are_nearly_those_of_all_edges(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,12 +1,12 @@
-"""Minimising a quadratic energy over maps that keep areas: ``C`` with orthonormal columns (or rows, if it has more).
+"""Minimisation of a quadratic energy over area-preserving maps, ``C`` with orthonormal columns (rows if wide).
 
-A map between shapes keeps areas exactly when its functional map keeps inner products, ``CᵀC = I`` (Ovsjanikov et al.
-2012; a constraint of the fit in Kovnatsky et al., MADMM, 2016). Such matrices are the Stiefel manifold. The energy is
-minimised on it by preconditioned conjugate gradients in the tangent space with the polar factor for a retraction
-(Absil, Mahony and Sepulchre, Optimization algorithms on matrix manifolds, 2008, chapter 8). Where a step of these does
-not lower the energy enough, ``C ← polar(C − ∇E / L)`` is taken, which lowers it for every ``L`` that bounds the
-operator: the energy lies below ``⟨∇E, X − C⟩ + ½ L ‖X − C‖²``, which this step minimises over all orthonormal ``X``. So
-the energy never rises.
+A map between shapes preserves areas exactly when its functional map preserves inner products, ``CᵀC = I`` (Ovsjanikov
+et al. 2012; a constraint of the fit in Kovnatsky et al., MADMM, 2016). Such matrices form the Stiefel manifold. The
+energy is minimised on it by preconditioned conjugate gradients in the tangent space, with the polar factor as the
+retraction (Absil, Mahony and Sepulchre, Optimization algorithms on matrix manifolds, 2008, chapter 8). Where such a
+step does not lower the energy enough, ``C ← polar(C − ∇E / L)`` is taken instead. It lowers the energy for every ``L``
+that bounds the operator, since it minimises the upper bound ``⟨∇E, X − C⟩ + ½ L ‖X − C‖²`` over all orthonormal ``X``.
+So the energy never rises.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def nearest_orthogonal(C: Array) -> Array:
 
 
 def _tangent(C: Array, G: Array) -> Array:
-    """The part of ``G`` that is tangent to the orthonormal matrices at ``C``; both (k_t, k_s)."""
+    """Return the part of ``G`` that is tangent to the orthonormal matrices at ``C``; both (k_t, k_s)."""
     if C.shape[0] < C.shape[1]:
         return _tangent(C.T, G.T).T
     product = C.T @ G
@@ -52,8 +52,8 @@ def minimize_orthogonal(
     ----------
     energy : Term
     solver : CG
-        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``; ``max_iter`` as usual. ``Direct``,
-        which has no counterpart here, means a tolerance of 1e-10.
+        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``. ``Direct`` means ``CG(1e-10,
+        5000)``.
     start : (k_t, k_s)
         Made orthonormal first.
     preconditioner : callable, optional
@@ -72,46 +72,45 @@ def minimize_orthogonal(
     right = energy.rhs()
     check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
     size = inner(right, right) ** 0.5 or 1.0
-    here = _At(energy, right, nearest_orthogonal(start))
-    gradient = _tangent(here.C, here.gradient)
+    point = _Point(energy, right, nearest_orthogonal(start))
+    gradient = _tangent(point.C, point.gradient)
     residuals = [inner(gradient, gradient) ** 0.5]
-    direction, before, bound = None, None, None
+    direction, previous, bound = None, None, None
     while (status := reason_to_stop(residuals, settings.rtol * size, limit)) is None:
-        z = gradient if preconditioner is None else _tangent(here.C, preconditioner(gradient))
+        z = gradient if preconditioner is None else _tangent(point.C, preconditioner(gradient))
         gz = inner(gradient, z)
-        direction = _next_direction(here.C, gradient, z, gz, direction, before)
-        there = _line_search(energy, right, here, gradient, direction)
-        if there is None:
-            bound = bound or 1.1 * _largest_curvature(energy, here.C)
-            there, bound = _polar_step(energy, right, here, bound)
-            if there is None:
-                status = "breakdown"
-                break
-            before = direction = None
-        else:
-            before = gradient, gz
-        here = there
-        gradient = _tangent(here.C, here.gradient)
+        direction = _next_direction(point.C, gradient, z, gz, direction, previous)
+        previous = gradient, gz
+        lower = _line_search(energy, right, point, gradient, direction)
+        if lower is None:
+            bound = bound or 1.1 * _largest_curvature(energy, point.C)
+            lower, bound = _polar_step(energy, right, point, bound)
+            previous = direction = None
+        if lower is None:
+            status = "breakdown"
+            break
+        point = lower
+        gradient = _tangent(point.C, point.gradient)
         residuals.append(inner(gradient, gradient) ** 0.5)
         if progress is not None:
             progress(len(residuals) - 1, residuals[-1] / size)
-    return Solution(here.C, status, len(residuals) - 1, np.asarray(residuals))
+    return Solution(point.C, status, len(residuals) - 1, np.asarray(residuals))
 
 
 def _next_direction(
-    C: Array, gradient: Array, z: Array, gz: float, direction: Array | None, before: tuple[Array, float] | None
+    C: Array, gradient: Array, z: Array, gz: float, direction: Array | None, previous: tuple[Array, float] | None
 ) -> Array:
-    """The conjugate direction (Polak and Ribière, kept positive); the preconditioned gradient ``z`` to begin with."""
-    if direction is None or before is None or not gz > 0:
+    """Return the conjugate direction (Polak and Ribière, β ≥ 0); the first is the preconditioned gradient ``z``."""
+    if direction is None or previous is None or not gz > 0:
         return -z if gz > 0 else -gradient
-    old_gradient, old_gz = before
-    share = max(0.0, (gz - inner(_tangent(C, old_gradient), z)) / old_gz)
-    direction = -z + share * _tangent(C, direction)
+    old_gradient, old_gz = previous
+    beta = max(0.0, (gz - inner(_tangent(C, old_gradient), z)) / old_gz)
+    direction = -z + beta * _tangent(C, direction)
     return direction if inner(gradient, direction) < 0 else -z
 
 
-class _At:
-    """The energy (without its constant) and its gradient at ``C``, for one application of the operator."""
+class _Point:
+    """A map ``C`` with its energy (without the constant) and gradient, by one application of the operator."""
 
     def __init__(self, energy: Term, right: Array, C: Array) -> None:
         applied = energy.apply(C)
@@ -120,42 +119,42 @@ class _At:
         self.value = 0.5 * inner(C, applied) - inner(right, C)
 
 
-def _line_search(energy: Term, right: Array, here: _At, gradient: Array, direction: Array) -> _At | None:
-    """A point along ``direction`` that is lower, the first guess that of the quadratic model on the manifold."""
+def _line_search(energy: Term, right: Array, point: _Point, gradient: Array, direction: Array) -> _Point | None:
+    """Return a lower point along ``direction``; the first step is that of the quadratic model on the manifold."""
     slope = inner(gradient, direction)
-    wide = here.C.shape[0] < here.C.shape[1]
-    product = here.gradient @ here.C.T if wide else here.C.T @ here.gradient
+    is_wide = point.C.shape[0] < point.C.shape[1]
+    product = point.gradient @ point.C.T if is_wide else point.C.T @ point.gradient
     product = 0.5 * (product + product.T)
-    bent = product @ direction if wide else direction @ product
-    straight = inner(direction, energy.apply(direction))
-    curvature = straight - inner(direction, bent)
-    if not curvature > 1e-3 * straight:
-        curvature = straight
+    correction = product @ direction if is_wide else direction @ product  # of the curved manifold
+    flat_curvature = inner(direction, energy.apply(direction))
+    curvature = flat_curvature - inner(direction, correction)
+    if not curvature > 1e-3 * flat_curvature:
+        curvature = flat_curvature
     if not (curvature > 0 and np.isfinite(curvature) and slope < 0):
         return None
     step = -slope / curvature
     for _ in range(_MAX_HALVINGS):
-        there = _At(energy, right, nearest_orthogonal(here.C + step * direction))
-        # Armijo's rule. Near the minimum a step's decrease is lost in the rounding of the value.
-        if there.value <= here.value + 1e-4 * step * slope + 1e-14 * abs(here.value):
-            return there
+        candidate = _Point(energy, right, nearest_orthogonal(point.C + step * direction))
+        # Armijo's rule. Near the minimum the decrease is lost in the rounding of the value.
+        if candidate.value <= point.value + 1e-4 * step * slope + 1e-14 * abs(point.value):
+            return candidate
         step *= 0.5
     return None
 
 
-def _polar_step(energy: Term, right: Array, here: _At, bound: float) -> tuple[_At | None, float]:
-    """``polar(C − ∇E / L)`` and the ``L`` that lowered the energy; ``None`` where rounding lets none."""
+def _polar_step(energy: Term, right: Array, point: _Point, bound: float) -> tuple[_Point | None, float]:
+    """Return ``polar(C − ∇E / L)`` and the ``L`` that lowered the energy; ``None`` where rounding lets none do so."""
     for _ in range(_MAX_HALVINGS):
-        there = _At(energy, right, nearest_orthogonal(here.C - here.gradient / bound))
-        if there.value < here.value:
-            return there, bound
+        candidate = _Point(energy, right, nearest_orthogonal(point.C - point.gradient / bound))
+        if candidate.value < point.value:
+            return candidate, bound
         bound *= 2.0
     return None, bound
 
 
-def _largest_curvature(energy: Term, like: Array) -> float:
-    """The largest eigenvalue of the energy's operator, from below, by the power method from ``like``."""
-    x = like + 0.01 * namespace(like).ones_like(like)
+def _largest_curvature(energy: Term, C: Array) -> float:
+    """Return a lower bound of the largest eigenvalue of the energy's operator, by the power method from ``C``."""
+    x = C + 0.01 * namespace(C).ones_like(C)
     value = 0.0
     for _ in range(20):
         x = x / inner(x, x) ** 0.5

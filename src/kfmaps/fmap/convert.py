@@ -8,7 +8,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, blocks, is_numpy, namespace, refuse, take, to_numpy
 from kfmaps.fmap.approximate_nearest import N_PROBE
-from kfmaps.fmap.nearest import nearest, searches_cells
+from kfmaps.fmap.nearest import is_approximate, nearest
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
@@ -20,69 +20,67 @@ def to_points(
     C: Array,
     source: Basis,
     target: Basis,
-    beside: tuple[Array, Array] | None = None,
+    extra_columns: tuple[Array, Array] | None = None,
     exact: bool | None = None,
     probes: int = N_PROBE,
 ) -> np.ndarray:
     """Return the point map ``target_to_source (n_t,)`` of a functional map.
 
-    Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of the
-    latter takes the closest of the former (Ovsjanikov et al. 2012).
+    Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` are the target's. Each target
+    vertex takes the source vertex with the closest row (Ovsjanikov et al. 2012).
 
     Parameters
     ----------
     C : (k_t, k_s)
     source, target : Basis
         Of at least that many functions.
-    beside : pair of (n_s, d) and (n_t, d), optional
-        Further columns to compare; see :func:`embed`.
+    extra_columns : pair of (n_s, d) and (n_t, d), optional
+        Further columns to compare, as :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`
+        returns them.
     exact, probes
         As for :func:`kfmaps.fmap.nearest.nearest`: from about 10,000 points on each side the search is approximate
         unless ``exact`` says otherwise, and quicker with fewer ``probes``.
     """
-    dimensions = C.shape[0] + (0 if beside is None else beside[0].shape[1])
-    many = searches_cells(target.mass.shape[0], source.mass.shape[0], dimensions, exact)
-    single = many and is_numpy(C, source.functions)
-    images, places = (_embed_single if single else embed)(C, source, target, beside)
-    # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
+    dimensions = C.shape[0] + (0 if extra_columns is None else extra_columns[0].shape[1])
+    single = is_approximate(target.mass.shape[0], source.mass.shape[0], dimensions, exact)
+    embedding = _embed_single if single and is_numpy(C, source.functions) else embed
+    points, queries = embedding(C, source, target, extra_columns)
+    # A vertex that no face uses has no area and the functions of a neighbour. It cannot be an image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
-    if len(used) == images.shape[0]:
-        return nearest(places, images, exact=exact, probes=probes)
-    return used[nearest(places, take(images, used), exact=exact, probes=probes)]
+    if len(used) == points.shape[0]:
+        return nearest(queries, points, exact=exact, probes=probes)
+    return used[nearest(queries, take(points, used), exact=exact, probes=probes)]
 
 
 def embed(
     C: Array, source: Basis, target: Basis, extra_columns: tuple[Array, Array] | None = None
 ) -> tuple[Array, Array]:
-    """Return the points of both shapes in the spectral embedding of the target, where nearest ones correspond.
+    """Return the points of both shapes in the spectral embedding of the target, (n_s, k_t + d) and (n_t, k_t + d).
 
-    ``C (k_t, k_s)``; ``source`` and ``target``: truncated to the size of ``C``; ``extra_columns``: further columns to
-    compare; see :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`. Returns ``source, target
-    (n_s, k_t + d)``.
+    ``C (k_t, k_s)``; ``extra_columns``: as for :func:`to_points`.
     """
     k_t, k_s = C.shape
-    images, places = source.truncate(k_s).functions @ C.T, target.truncate(k_t).functions
+    rows_s, rows_t = source.truncate(k_s).functions @ C.T, target.truncate(k_t).functions
     if extra_columns is None:
-        return images, places
-    xp = namespace(images)
-    return xp.concat([images, extra_columns[0]], axis=1), xp.concat([places, extra_columns[1]], axis=1)
+        return rows_s, rows_t
+    xp = namespace(rows_s)
+    return xp.concat([rows_s, extra_columns[0]], axis=1), xp.concat([rows_t, extra_columns[1]], axis=1)
 
 
 def _embed_single(
     C: np.ndarray, source: Basis, target: Basis, extra_columns: tuple[Array, Array] | None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return what :func:`embed` does, in the single precision that an approximate search of many points works in."""
+    """Return what :func:`embed` does in single precision, in which many points are searched approximately."""
     k_t, k_s = C.shape
-    columns = extra_columns or (np.zeros((len(source.mass), 0)), np.zeros((len(target.mass), 0)))
-    sides = (source.functions[:, :k_s], C.T, columns[0]), (target.functions[:, :k_t], None, columns[1])
-    embedded = []
-    for functions, turn, beside in sides:
-        rows = np.empty((len(functions), k_t + beside.shape[1]), dtype=np.float32)
-        for part in blocks(len(rows), 4096):
-            rows[part, :k_t] = functions[part] if turn is None else functions[part] @ turn
-            rows[part, k_t:] = beside[part]
-        embedded.append(rows)
-    return embedded[0], embedded[1]
+    d = 0 if extra_columns is None else extra_columns[0].shape[1]
+    rows_s = np.empty((len(source.mass), k_t + d), dtype=np.float32)
+    for part in blocks(len(rows_s), 4096):
+        rows_s[part, :k_t] = source.functions[part, :k_s] @ C.T
+    rows_t = np.empty((len(target.mass), k_t + d), dtype=np.float32)
+    rows_t[:, :k_t] = target.functions[:, :k_t]
+    if extra_columns is not None:
+        rows_s[:, k_t:], rows_t[:, k_t:] = extra_columns
+    return rows_s, rows_t
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:
@@ -114,23 +112,24 @@ def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndar
 def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the nearest vertex that some target vertex is mapped to for each source vertex, (n_s,).
 
-    Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through space for
-    point clouds and for parts that no target vertex reaches.
+    Nearest is meant along edges, so that a point of an arm is not linked to the leg beside it. In point clouds and
+    components that no target vertex reaches it is meant in space.
 
     ``target_to_source (n_t,)``: −1 where a vertex has no counterpart.
     """
     n = len(source.vertices)
-    reached = np.unique(target_to_source)
-    reached = reached[reached >= 0]
-    if len(reached) == 0:
+    images = np.unique(target_to_source)
+    images = images[images >= 0]
+    if len(images) == 0:
         return np.arange(n)
-    nearest = np.full(n, -1, dtype=np.int64)
+    result = np.full(n, -1, dtype=np.int64)
     if len(source.faces):
-        result = dijkstra(geodesic_graph(source, 0), indices=reached, min_only=True, return_predecessors=True)
-        found = np.isfinite(result[0])
-        nearest[found] = result[2][found]
-    nearest[reached] = reached
-    lost = nearest < 0
-    if lost.any():
-        nearest[lost] = reached[KDTree(source.vertices[reached]).query(source.vertices[lost])[1]]
-    return nearest
+        graph = geodesic_graph(source, 0)
+        distances, _, origins = dijkstra(graph, indices=images, min_only=True, return_predecessors=True)
+        reached = np.isfinite(distances)
+        result[reached] = origins[reached]
+    result[images] = images
+    unreached = result < 0
+    if unreached.any():
+        result[unreached] = images[KDTree(source.vertices[images]).query(source.vertices[unreached])[1]]
+    return result

@@ -3,7 +3,7 @@
 Eigenfunctions of two shapes that are not isometric drift apart: their order, signs and subspaces differ. Coupled bases
 ``Φ_s U_s``, ``Φ_t U_t`` keep the Laplacians nearly diagonal and make corresponding functions have nearly the same
 coefficients (Kovnatsky, Bronstein, Bronstein, Glashoff and Kimmel, Coupled quasi-harmonic bases, 2013). In them the
-functional map is near the identity, and what asks for a nearly diagonal map asks for the right thing.
+functional map is near the identity, so terms that want a nearly diagonal map are right.
 """
 
 from __future__ import annotations
@@ -28,10 +28,7 @@ class CoupledBases:
     history: np.ndarray
 
     def to_rotated(self, source: Basis, target: Basis) -> tuple[Basis, Basis]:
-        """Return the coupled bases.
-
-        Their "eigenvalues" are the diagonals of the rotated Laplacians, Dirichlet energies.
-        """
+        """Return the coupled bases, with the Dirichlet energies of their functions for eigenvalues."""
         return _rotated(source, self.U_s), _rotated(target, self.U_t)
 
 
@@ -49,8 +46,8 @@ def couple_bases(values_s: Array, values_t: Array, cross: Array, weight: float) 
     values_s, values_t : (k_s,), (k_t,)
         Eigenvalues.
     cross : (k_t, k_s)
-        ``Σ q pᵀ`` over the coefficients of corresponding functions, or a functional map, of which it then is the
-        correspondence of all functions. Where it is square ``U_t`` starts at its polar factor, else at the identity.
+        ``Σ q pᵀ`` over the coefficients of corresponding functions, or a functional map, which makes all functions
+        correspond. Where it is square ``U_t`` starts at its polar factor, else at the identity.
     weight : float
         Of the coupling.
     """
@@ -59,41 +56,42 @@ def couple_bases(values_s: Array, values_t: Array, cross: Array, weight: float) 
     check(values_s, "values_s", shape=(k_s,))
     check(values_t, "values_t", shape=(k_t,))
     size = float(xp.sum(xp.linalg.svd(cross, full_matrices=False)[1])) or 1.0
-    pull = cross * (weight / size)
     U_s = xp.eye(k_s, dtype=cross.dtype, device=cross.device)
     U_t = nearest_orthogonal(cross) if k_t == k_s else xp.eye(k_t, dtype=cross.dtype, device=cross.device)
-    sides = [values / (float(xp.sum(values * values)) ** 0.5 or 1.0) for values in (values_s, values_t)]
+    cross = cross * (weight / size)
+    unit_s, unit_t = (values / (float(xp.sum(values * values)) ** 0.5 or 1.0) for values in (values_s, values_t))
+    k = min(k_t, k_s)
 
     def objective() -> float:
-        off = [float(xp.sum(v * v) - xp.sum(_diagonal(v, U) ** 2)) for v, U in zip(sides, (U_s, U_t), strict=True)]
-        return 0.5 * sum(off) - float(xp.sum((pull @ U_s)[:, : min(k_t, k_s)] * U_t[:, : min(k_t, k_s)]))
+        off = [float(xp.sum(v * v) - xp.sum(_diagonal(v, U) ** 2)) for v, U in ((unit_s, U_s), (unit_t, U_t))]
+        return 0.5 * sum(off) - float(xp.sum((cross @ U_s)[:, :k] * U_t[:, :k]))
 
     history = [objective()]
     for _ in range(100):
-        U_s = nearest_orthogonal(_tangent(sides[0], U_s, _diagonal(sides[0], U_s)) + _padded(pull.T @ U_t, k_s))
-        U_t = nearest_orthogonal(_tangent(sides[1], U_t, _diagonal(sides[1], U_t)) + _padded(pull @ U_s, k_t))
+        U_s = nearest_orthogonal(_gradient(unit_s, U_s) + _with_columns(cross.T @ U_t, k_s))
+        U_t = nearest_orthogonal(_gradient(unit_t, U_t) + _with_columns(cross @ U_s, k_t))
         history.append(objective())
         if history[-2] - history[-1] <= 1e-6 * max(abs(history[-2]), 1e-300):
             break
     return CoupledBases(U_s, U_t, np.asarray(history))
 
 
-def _tangent(values: Array, U: Array, kept: Array) -> Array:
-    """The gradient of ``½ Σ (uᵀΛu)²``."""
-    return 2.0 * (values[:, None] * U) * kept[None, :]
+def _gradient(values: Array, U: Array) -> Array:
+    """Return the gradient of ``½ Σ (uᵀΛu)²``."""
+    return 2.0 * (values[:, None] * U) * _diagonal(values, U)[None, :]
 
 
-def _padded(pull: Array, k: int) -> Array:
-    """``pull`` with as many columns as a rotation of ``k`` functions: those beyond are coupled to nothing."""
-    xp = namespace(pull)
-    if pull.shape[1] >= k:
-        return pull[:, :k]
-    extra = xp.zeros((k, k - pull.shape[1]), dtype=pull.dtype, device=pull.device)
-    return xp.concat([pull, extra], axis=1)
+def _with_columns(matrix: Array, k: int) -> Array:
+    """Return the first ``k`` columns of a matrix, zeros where it has fewer."""
+    xp = namespace(matrix)
+    if matrix.shape[1] >= k:
+        return matrix[:, :k]
+    zeros = xp.zeros((k, k - matrix.shape[1]), dtype=matrix.dtype, device=matrix.device)
+    return xp.concat([matrix, zeros], axis=1)
 
 
 def _diagonal(values: Array, U: Array) -> Array:
-    """The diagonal of ``Uᵀ Λ U``."""
+    """Return the diagonal of ``Uᵀ Λ U``."""
     return namespace(U).sum(U * (values[:, None] * U), axis=0)
 
 
@@ -116,8 +114,10 @@ class RotatedTerm:
     def rhs(self) -> Array:
         return self.U_t @ self.term.rhs() @ self.U_s.T
 
-    def diagonal(self) -> Array:
-        return self.term.rotated_diagonal(self.U_t.T, self.U_s.T)
+    def diagonal(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        V_t = self.U_t.T if U_t is None else self.U_t.T @ U_t
+        V_s = self.U_s.T if U_s is None else self.U_s.T @ U_s
+        return self.term.diagonal(V_t, V_s)
 
     def constant(self) -> float:
         return self.term.constant()
@@ -125,9 +125,6 @@ class RotatedTerm:
     def sides(self) -> tuple[Array, Array]:
         S_t, S_s = self.term.sides()
         return self.U_t @ S_t @ self.U_t.T, self.U_s @ S_s @ self.U_s.T
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        return self.term.rotated_diagonal(self.U_t.T @ U_t, self.U_s.T @ U_s)
 
 
 @dataclass(frozen=True, eq=False)

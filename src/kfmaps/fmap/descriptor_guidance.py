@@ -1,9 +1,9 @@
-"""Descriptors that guide a refinement: they take part in its search for nearest neighbours.
+"""Descriptors that guide a refinement: its search for nearest neighbours compares them beside the functions.
 
-Between bodies the low functions leave several maps equally smooth: left for right, front for back, half of each.
-ZoomOut settles in whichever it starts closest to. With a few descriptors of each point beside its functions it slides
-into the map that they speak for, and as the functions become more these decide alone. Smooth Shells (Eisenberger et al.
-2020) joins functions, coordinates and normals likewise.
+Between bodies several maps are equally smooth in the low functions: left for right, front for back, half of each.
+ZoomOut converges to the one that it starts closest to. With a few descriptors beside the functions it converges to the
+map that keeps them, and as the functions become more they outweigh the descriptors. Smooth Shells (Eisenberger et al.
+2020) join functions, coordinates and normals in the same way.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from kfmaps._arrays import Array, blocks, like, refuse
 from kfmaps.geometry.basis import Basis
 
 DIMENSIONS = 32
-"""Principal directions of the descriptors that are kept: SHOT has 352, most of them noise."""
+"""Principal components of the descriptors that are kept. Most of the 352 of SHOT are noise."""
 _DIRECTION_ROWS = 10_000  # rows of both shapes that determine the principal directions; more change them by little
 FLAT = 0.05
-"""Spread of SHOT below which its differences are the triangulation's: a sphere has 0.0005, bodies 0.2 to 0.3."""
+"""Variance of SHOT below which it only shows the triangulation. A sphere has 0.0005, bodies 0.2 to 0.3."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,9 +46,9 @@ class DescriptorGuidance:
         return DescriptorGuidance(self.target, self.source)
 
     def embedding_columns(self, weight: float, source: Basis, target: Basis) -> tuple[Array, Array]:
-        """Return columns to put beside the functions, whose squared differences are ``weight`` on average at unit area.
+        """Return extra columns of an embedding whose mean squared difference at unit area is ``weight``.
 
-        Of random points those of k functions are about 2 k, so that descriptors matter much while k is small.
+        That of k functions is about 2 k, so that descriptors matter most while k is small.
         """
         scale = np.sqrt(weight / float(target.mass.sum()))
         return like(scale * self.source, source.functions), like(scale * self.target, target.functions)
@@ -81,26 +81,24 @@ def descriptor_guidance(
     if source.shape[1] != target.shape[1]:
         got = f"{source.shape[1]} and {target.shape[1]}"
         raise refuse("descriptors", "equally many on both shapes", got, "compute both with the same settings")
-    if not (_varied(source) or _varied(target)):
+    if not (_has_features(source) or _has_features(target)):
         return None
-    sides = (source, target)
+    both = (source, target)
     count = len(source) + len(target)
     mean = (source.sum(axis=0, dtype=np.float64) + target.sum(axis=0, dtype=np.float64)) / count
-    # Of large shapes some rows tell the directions; and the mean is taken off what is left, so that none is copied.
-    some = np.vstack([side[:: max(1, count // _DIRECTION_ROWS)] for side in sides]) - mean
-    directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
-    reduced = [side @ directions.astype(side.dtype) - mean @ directions for side in sides]
-    unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
-    return DescriptorGuidance(reduced[0] / unit, reduced[1] / unit)
+    # Every few rows of large shapes are enough. The mean is subtracted from the components, so that no row is copied.
+    rows = np.vstack([side[:: max(1, count // _DIRECTION_ROWS)] for side in both]) - mean
+    directions = np.linalg.eigh(rows.T @ rows)[1][:, ::-1][:, :dimensions]
+    components = [side @ directions.astype(side.dtype) - mean @ directions for side in both]
+    unit = np.sqrt(2 * sum((side**2).sum() for side in components) / count)
+    return DescriptorGuidance(components[0] / unit, components[1] / unit)
 
 
-def _varied(descriptors: np.ndarray) -> bool:
-    """Whether :func:`descriptor_variance` is at least :data:`FLAT`, mostly told in one pass."""
+def _has_features(descriptors: np.ndarray) -> bool:
+    """Return whether :func:`descriptor_variance` is at least :data:`FLAT`, by a quick estimate where it suffices."""
     mean = descriptors.mean(axis=0, dtype=np.float64)
-    about = float(np.einsum("ij,ij->", descriptors, descriptors, dtype=np.float64)) / len(descriptors) - float(
-        mean @ mean
-    )
-    return about > 2 * FLAT or descriptor_variance(descriptors) >= FLAT
+    squares = float(np.einsum("ij,ij->", descriptors, descriptors, dtype=np.float64))
+    return squares / len(descriptors) - float(mean @ mean) > 2 * FLAT or descriptor_variance(descriptors) >= FLAT
 
 
 def descriptor_variance(descriptors: np.ndarray) -> float:
@@ -111,19 +109,18 @@ def descriptor_variance(descriptors: np.ndarray) -> float:
 
 
 def combine_guidance(guides: list[tuple[float, DescriptorGuidance | None]]) -> DescriptorGuidance | None:
-    """Return one guidance of several with weights, relative to the first that there is; ``None`` where there is none.
+    """Return one guidance of several with weights; ``None`` where there is none.
 
     Parameters
     ----------
     guides : list of (float, DescriptorGuidance or None)
         The combined guidance has the unit of the first.
     """
-    present = [(w, g) for w, g in guides if g is not None and w > 0]
-    if not present:
+    scaled = [(weight, guide) for weight, guide in guides if guide is not None and weight > 0]
+    if not scaled:
         return None
-    scale = [np.sqrt(w / present[0][0]) for w, _ in present]
-    sides = [
-        [s * side for s, side in zip(scale, pair, strict=True)]
-        for pair in zip(*((g.source, g.target) for _, g in present), strict=True)
-    ]
-    return DescriptorGuidance(np.hstack(sides[0]), np.hstack(sides[1]))
+    scaled = [(np.sqrt(weight / scaled[0][0]), guide) for weight, guide in scaled]
+    return DescriptorGuidance(
+        np.hstack([scale * guide.source for scale, guide in scaled]),
+        np.hstack([scale * guide.target for scale, guide in scaled]),
+    )

@@ -1,7 +1,7 @@
 """Quadratic energies of a functional map: ``½⟨C, A(C)⟩ − ⟨B, C⟩ + c`` for ``C`` of shape (k_t, k_s).
 
-Every term keeps its operator ``A`` (half the Hessian of the squared norm it stands for), right-hand side ``B``, the
-exact diagonal of ``A`` and the constant ``c``; :func:`value` of a term is half its squared residual norm. With features
+Every term has its operator ``A`` (half the Hessian of its squared norm), right-hand side ``B``, the exact diagonal of
+``A`` and the constant ``c``; its :func:`value` is half its squared residual norm. With features
 ``W`` (descriptors, or Nyström features of a kernel) and ``P̂ = Φᵀ A W``, ``Xⁱ = Φᵀ A diag(wᵢ) Φ``:
 
 =====================  ==============================  ==============================================
@@ -62,8 +62,8 @@ class Energy:
     def rhs(self) -> Array:
         return _total(weight * term.rhs() for weight, term in self._active())
 
-    def diagonal(self) -> Array:
-        return _total(weight * term.diagonal() for weight, term in self._active())
+    def diagonal(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        return _total(weight * term.diagonal(U_t, U_s) for weight, term in self._active())
 
     def constant(self) -> float:
         return sum(weight * term.constant() for weight, term in self._active())
@@ -71,9 +71,6 @@ class Energy:
     def sides(self) -> tuple[Array, Array]:
         sides = [(weight, term.sides()) for weight, term in self._active()]
         return _total(weight * S[0] for weight, S in sides), _total(weight * S[1] for weight, S in sides)
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        return _total(weight * term.rotated_diagonal(U_t, U_s) for weight, term in self._active())
 
     def joined(self, more: Mapping[str, tuple[float, Term]]) -> Energy:
         """Return the energy with further terms, ``more`` being ``{name: (weight, term)}``."""
@@ -92,8 +89,10 @@ class Energy:
     def breakdown(self, C: Array) -> dict[str, float]:
         """Return the weighted value of each term at ``C``; they add up to ``value(self, C)``."""
         # With operators in single precision a value of zero may come out a little below.
-        known = ((name, weight, self.terms[name]) for name, weight in self.weights.items())
-        return {name: weight * max(value(term, C), 0.0) if weight else 0.0 for name, weight, term in known}
+        return {
+            name: weight * max(value(self.terms[name], C), 0.0) if weight else 0.0
+            for name, weight in self.weights.items()
+        }
 
 
 def _total(arrays: Iterable[Array]) -> Array:

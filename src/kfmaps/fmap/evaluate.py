@@ -1,4 +1,4 @@
-"""How far a point map is from the truth, by the Princeton protocol (Kim, Lipman and Funkhouser 2011)."""
+"""Errors of a point map against the truth, by the Princeton protocol (Kim, Lipman and Funkhouser 2011)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps.fmap.convert import check_point_map
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
 from kfmaps.geometry.clean import clean_mesh
-from kfmaps.geometry.connectivity import half_edges
+from kfmaps.geometry.connectivity import mesh_edges
 from kfmaps.geometry.face_orientation import inward_faces, turn_faces
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
@@ -44,8 +44,8 @@ class Evaluation:
 def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray) -> np.ndarray:
     """Return the geodesic distance from each predicted to its true vertex, (q,), divided by √area of the source.
 
-    Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
-    components are at infinite distance. On a point cloud distances run along its neighbours, and the area is estimated.
+    No n × n matrix is held. Points on different components are at infinite distance. On a point cloud paths run along
+    nearest neighbours, and the area is estimated.
 
     Parameters
     ----------
@@ -63,9 +63,10 @@ def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray) -> np
     if predicted.shape != true.shape:
         got = f"{predicted.shape} and {true.shape}"
         raise refuse("predicted and true vertices", "lists of equal length", got, "evaluate the same points")
-    errors, known = np.full(len(predicted), np.nan), predicted != -1
-    ends = [check_point_map(points[known], len(source.vertices), int(known.sum())) for points in (true, predicted)]
-    errors[known] = geodesic_distance_pairs(source, *ends) / np.sqrt(surface_area(source))
+    errors, matched = np.full(len(predicted), np.nan), predicted != -1
+    n, count = len(source.vertices), int(matched.sum())
+    a, b = check_point_map(true[matched], n, count), check_point_map(predicted[matched], n, count)
+    errors[matched] = geodesic_distance_pairs(source, a, b) / np.sqrt(surface_area(source))
     return errors
 
 
@@ -83,35 +84,33 @@ def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMa
     InvalidInput
         When the two differ in length or do not fit the source.
     """
-    ends = []
-    for name, given in (("predicted", predicted), ("true", true)):
-        ends.append(_as_points(given, source))
-        if len(ends[0].faces) != len(ends[-1].faces):
-            got = f"{len(ends[0].faces)} and {len(ends[-1].faces)}"
-            raise refuse(f"{name} points", "lists of equal length", got, "evaluate the same points")
-    distances = surface_point_distances(source, ends[0].faces, ends[0].weights, ends[1].faces, ends[1].weights)
+    a, b = _as_point_map(predicted, source), _as_point_map(true, source)
+    if len(a.faces) != len(b.faces):
+        got = f"{len(a.faces)} and {len(b.faces)}"
+        raise refuse("true points", "lists of equal length", got, "evaluate the same points")
+    distances = surface_point_distances(source, a.faces, a.weights, b.faces, b.weights)
     return distances / np.sqrt(surface_area(source))
 
 
-def _as_points(places: PointMap | np.ndarray, source: Mesh, n_t: int | None = None) -> PointMap:
-    """The points of a point map or of vertices, checked; ``n_t``: how many there must be, where that is known."""
-    if not isinstance(places, PointMap):
-        vertices = np.asarray(places)
-        places = vertex_point_map(check_point_map(vertices, len(source.vertices), n_t or len(vertices)), source)
-    return check_point_map_precise(places, source, n_t)
+def _as_point_map(points: PointMap | np.ndarray, source: Mesh, n_t: int | None = None) -> PointMap:
+    """Return a point map or a map to vertices as a checked point map; ``n_t``: number of points, if it is known."""
+    if not isinstance(points, PointMap):
+        vertices = np.asarray(points)
+        points = vertex_point_map(check_point_map(vertices, len(source.vertices), n_t or len(vertices)), source)
+    return check_point_map_precise(points, source, n_t)
 
 
 @dataclass(frozen=True)
 class Smoothness:
-    """How smooth and how nearly one-to-one a map is."""
+    """Measures of how smooth and one-to-one a map is."""
 
-    coverage: float  # part of the source's area with an image nearby: that of the vertices of which a face has one
-    flipped_area: float  # part of the target's area whose triangles come out turned over
-    stretched_area: float  # part of the target's edges that come out more than twice as long, or less than half
+    coverage: float  # share of the source's area around corners of faces that an image lies in
+    flipped_area: float  # share of the target's area in triangles whose images are turned over
+    stretched_area: float  # share of the target's edges whose images are more than twice or less than half as long
 
 
 def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smoothness:
-    """Return whether a map tears, folds or leaves parts out.
+    """Return how far a map tears, folds or leaves parts out.
 
     Parameters
     ----------
@@ -120,23 +119,26 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
     places : PointMap or (n_t,) int
         A point or a vertex of the source for each target vertex.
     """
-    places = _as_points(places, source, len(target.vertices))
-    # A map of a file that is inside out turns nothing over.
-    outer, faces = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
+    places = _as_point_map(places, source, len(target.vertices))
+    # Files that are inside out are turned first, so that their maps flip nothing.
+    faces_s, faces_t = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
     images = point_positions(places, source)
-    hit = np.unique(source.faces[places.faces][places.weights > 0])
-    areas = vertex_areas(source)
-    normals = vertex_normals(Mesh(source.vertices, outer))
-    there = np.einsum("ti,tij->tj", places.weights, normals[source.faces[places.faces]])
-    turned = np.cross(images[faces[:, 1]] - images[faces[:, 0]], images[faces[:, 2]] - images[faces[:, 0]])
-    over = np.einsum("fi,fi->f", turned, there[faces].sum(axis=1)) < 0
-    sizes = face_areas(target)
-    ends = np.unique(np.sort(half_edges(faces), axis=1), axis=0)
-    before = np.linalg.norm(target.vertices[ends[:, 0]] - target.vertices[ends[:, 1]], axis=1)
-    after = np.linalg.norm(images[ends[:, 0]] - images[ends[:, 1]], axis=1)
+    covered = np.unique(source.faces[places.faces][places.weights > 0])
+    areas_s, areas_t = vertex_areas(source), face_areas(target)
+    normals_s = vertex_normals(Mesh(source.vertices, faces_s))
+    normals = np.einsum("ti,tij->tj", places.weights, normals_s[source.faces[places.faces]])
+    a, b, c = (images[faces_t[:, i]] for i in range(3))
+    flipped = np.einsum("fi,fi->f", np.cross(b - a, c - a), normals[faces_t].sum(axis=1)) < 0
+    i, j = mesh_edges(faces_t, len(target.vertices))[0].T
+    before = np.linalg.norm(target.vertices[i] - target.vertices[j], axis=1)
+    after = np.linalg.norm(images[i] - images[j], axis=1)
     scale = np.sqrt(surface_area(source) / surface_area(target))
-    long = (after > 2 * scale * before) | (after < 0.5 * scale * before)
-    return Smoothness(float(areas[hit].sum() / areas.sum()), float(sizes[over].sum() / sizes.sum()), float(long.mean()))
+    stretched = (after > 2 * scale * before) | (after < 0.5 * scale * before)
+    return Smoothness(
+        float(areas_s[covered].sum() / areas_s.sum()),
+        float(areas_t[flipped].sum() / areas_t.sum()),
+        float(stretched.mean()),
+    )
 
 
 def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
@@ -174,7 +176,7 @@ def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
 def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     """Return the fraction of the source's area whose vertices are the image of some target vertex.
 
-    Connected vertices in one place count as one; those that belong to no face count for nothing.
+    Welded vertices count as one, and those that no face uses do not count.
 
     Parameters
     ----------
@@ -183,17 +185,17 @@ def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     source : Mesh
     """
     check_is_mesh(source, "source")
-    part = clean_mesh(source)
-    areas = vertex_areas(part.mesh)
+    cleaned = clean_mesh(source)
+    areas = vertex_areas(cleaned.mesh)
     points = np.asarray(target_to_source)
     points = points[points != -1]
     points = check_point_map(points, len(source.vertices), len(points))
-    hit = np.unique(part.to_clean[points[~part.unreferenced[points]]])
-    return float(areas[hit].sum() / areas.sum())
+    covered = np.unique(cleaned.to_clean[points[~cleaned.unreferenced[points]]])
+    return float(areas[covered].sum() / areas.sum())
 
 
 def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
-    """Return where a map sends the target's end of each true pair: ``target_to_source[truth_t]``, checked.
+    """Return the predicted source vertex of each true pair, ``target_to_source[truth_t]``, checked.
 
     ``truth_s (q,)`` and ``truth_t (q,)`` are corresponding vertices, line k of one file to line k of the other.
     """
@@ -208,20 +210,19 @@ def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source:
 def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the base-2 logarithm of how the map ``target_to_source (n_t,)`` changes area around each target vertex.
 
-    The area on the source of the images of the faces around a vertex over the area of those faces on the target, both
-    shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to nothing are held at -4,
-    and nothing exceeds 4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
-    and everywhere on point clouds.
+    It compares the area of the images of the faces around a vertex with that of the faces, both shapes at unit area. 0
+    keeps area, 1 doubles it, −1 halves it; values are clipped to [−4, 4]. NaN where no face with area meets the vertex,
+    around vertices without a counterpart (−1), and everywhere on point clouds.
     """
     n = len(target.vertices)
     if len(target.faces) == 0 or len(source.faces) == 0:
         return np.full(n, np.nan)
-    lost = np.asarray(target_to_source) < 0
-    image = face_areas(Mesh(source.vertices[target_to_source], target.faces)) / face_areas(source).sum()
-    own = face_areas(target) / face_areas(target).sum()
+    unmatched = np.asarray(target_to_source) < 0
+    image_areas = face_areas(Mesh(source.vertices[target_to_source], target.faces)) / face_areas(source).sum()
+    areas = face_areas(target) / face_areas(target).sum()
     corners = target.faces.ravel()
-    here = np.bincount(corners, np.repeat(own, 3), minlength=n)
-    there = np.bincount(corners, np.repeat(image, 3), minlength=n)
-    ratio = np.divide(there, here, out=np.full(n, np.nan), where=here > 0)
-    ratio[np.unique(target.faces[lost[target.faces].any(axis=1)])] = np.nan
+    before = np.bincount(corners, np.repeat(areas, 3), minlength=n)
+    after = np.bincount(corners, np.repeat(image_areas, 3), minlength=n)
+    ratio = np.divide(after, before, out=np.full(n, np.nan), where=before > 0)
+    ratio[np.unique(target.faces[unmatched[target.faces].any(axis=1)])] = np.nan
     return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))

@@ -1,9 +1,9 @@
-"""What is not quadratic: robust losses of the data and sparsity, each by reweighted least squares.
+"""Penalties that are not quadratic, robust losses of the data and sparsity, by reweighted least squares.
 
-A *penalty* knows its value and a quadratic term that lies above it and touches it where the map is (:class:`Penalty`).
-Minimising the energy with that term in the penalty's place lowers the true objective, whatever else it is made of;
-:func:`kfmaps.fmap.minimize.minimize` does so until it falls no more. So a penalty goes together with every term,
-kernel, constraint and solver.
+A *penalty* has a value and a quadratic majorizer: a term that lies above it and touches it at the current map
+(:class:`Penalty`). Minimising the energy with the majorizer in the penalty's place lowers the true objective, whatever
+else it is made of; :func:`kfmaps.fmap.minimize.minimize` does so until it falls no more. So a penalty can be combined
+with every term, kernel, constraint and solver.
 
 With ``e_g`` the squared residual of a group of data (a landmark, a descriptor, a feature) and a scale ``δ``:
 
@@ -16,7 +16,7 @@ loss          ρ(e), halved and summed      weight ρ'(e)          source
 "geman"       δ²e / (δ² + e)               (δ² / (δ² + e))²      Geman and McClure 1987
 ============  ===========================  ====================  ===============================
 
-All are concave in ``e``, which is what makes the reweighted term lie above them.
+All are concave in ``e``, so the reweighted term lies above them.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _LOSSES = get_args(LossName)
 
 
 class Penalty(Protocol):
-    """A function of C that lies below a quadratic one which touches it; all arrays have shape (k_t, k_s)."""
+    """A function of C with a quadratic majorizer; all arrays have shape (k_t, k_s)."""
 
     def value(self, C: Array) -> float:
         """Return the penalty at ``C``, at least zero."""

@@ -1,10 +1,9 @@
-"""What a fit minimises: a quadratic energy, penalties that are not quadratic, and maybe a constraint on C.
+"""Minimisation of a quadratic energy with penalties that are not quadratic and, optionally, a constraint on C.
 
-Without penalties and constraint it is one linear system, solved once. A penalty
-(:mod:`kfmaps.fmap.losses`) is replaced by its quadratic majorizer, again and again; a constraint
-(:mod:`kfmaps.fmap.constraints`) takes the place of the linear solve. Both maps of a pair at once are minimised in turn
-(:func:`fit_bidirectional`). Every step starts where the last one ended and lowers the same objective, so it never
-rises, whatever is combined.
+Without penalties and constraint it is one linear solve. A penalty (:mod:`kfmaps.fmap.losses`) is replaced by its
+quadratic majorizer at the current map in every step. A constraint (:mod:`kfmaps.fmap.constraints`) replaces the linear
+solve by a descent along a manifold. The two maps of a pair are minimised in turn (:func:`fit_bidirectional`). Every
+step starts from the last map and lowers the same objective, so that it never rises.
 """
 
 from __future__ import annotations
@@ -73,8 +72,8 @@ def minimize(
     objective : Objective
     how : MinimizeOptions
     start : (k_t, k_s), optional
-        By default the minimiser of the energy with the penalties' majorizers at zero, that is, about where the energy
-        alone is least; constrained, its nearest orthonormal map.
+        By default the minimiser of the energy with the penalties' majorizers at zero; with the constraint, the
+        orthonormal map nearest to it.
     progress : callable, optional
         Called after each step of the solver with its number and the relative residual.
 
@@ -100,7 +99,7 @@ def minimize(
 def _solve_quadratic(
     energy: Energy, constraint: Constraint, how: MinimizeOptions, start: Array | None, progress: ProgressCallback | None
 ) -> Solution:
-    """The minimiser of an energy: one linear solve, or one descent along the manifold."""
+    """Return the minimiser of an energy, by one linear solve or one descent along the manifold."""
     inverse = None
     if how.preconditioner == "jacobi":
         inverse = jacobi(energy.diagonal())
@@ -114,12 +113,11 @@ def _solve_quadratic(
 
 @dataclass(frozen=True, eq=False)
 class BidirectionalSolution:
-    """``forth`` (k_t, k_s), ``back`` (k_s, k_t) and the objective of both together before the first round and after
-    each."""
+    """The maps of both directions; made by :func:`fit_bidirectional`."""
 
-    forth: Solution
-    back: Solution
-    history: np.ndarray
+    forth: Solution  # (k_t, k_s)
+    back: Solution  # (k_s, k_t)
+    history: np.ndarray  # the joint objective before the first round and after each
 
 
 def fit_bidirectional(
@@ -131,34 +129,37 @@ def fit_bidirectional(
     start: Array | None = None,
     progress: ProgressCallback | None = None,
 ) -> BidirectionalSolution:
-    """Minimise both directions at once, ``C`` forth and ``D`` back.
+    """Minimise both directions together, ``C`` forth and ``D`` back.
 
     The objective is the sum of both and ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²`` (Eynard et al.,
     Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is quadratic in each map;
     they are minimised in turn, from the uncoupled ones, until the sum hardly falls. ``start`` is a map forth; ``how``
     and ``progress`` are those of :func:`minimize`.
     """
-    one = minimize(forth, how, start, progress)
-    other = minimize(back, how, None, progress)
-    tied = {name: w for name, w in (("inverse", inverse), ("adjoint", adjoint)) if w > 0}
+    C, D = minimize(forth, how, start, progress), minimize(back, how, None, progress)
+    couplings: list[tuple[str, float, Callable[[Array], Term]]] = [
+        ("inverse", inverse, inverse_term),
+        ("adjoint", adjoint, adjoint_term),
+    ]
+    couplings = [coupling for coupling in couplings if coupling[1] > 0]
 
-    def with_other(objective: Objective, there: Array) -> Objective:
-        make: dict[str, Callable[[Array], Term]] = {"inverse": inverse_term, "adjoint": adjoint_term}
-        terms = {name: (weight, make[name](there)) for name, weight in tied.items()}
+    def coupled(objective: Objective, other: Array) -> Objective:
+        """Return the objective of one map with the coupling to the ``other``."""
+        terms = {name: (weight, make_term(other)) for name, weight, make_term in couplings}
         return replace(objective, energy=objective.energy.joined(terms))
 
     def total() -> float:
-        # The coupling is the same seen from either side, so it is counted with the map forth.
-        return with_other(forth, other.value).value(one.value) + back.value(other.value)
+        # The coupling has the same value for both maps and is counted once.
+        return coupled(forth, D.value).value(C.value) + back.value(D.value)
 
     history = [total()]
-    single = replace(how, max_outer_iter=1)
-    for _ in range(how.max_outer_iter if tied else 0):
-        found = minimize(with_other(forth, other.value), single, one.value, progress)
-        one = replace(found, steps=one.steps + found.steps)
-        found = minimize(with_other(back, one.value), single, other.value, progress)
-        other = replace(found, steps=other.steps + found.steps)
+    one_step = replace(how, max_outer_iter=1)
+    for _ in range(how.max_outer_iter if couplings else 0):
+        solution = minimize(coupled(forth, D.value), one_step, C.value, progress)
+        C = replace(solution, steps=C.steps + solution.steps)
+        solution = minimize(coupled(back, C.value), one_step, D.value, progress)
+        D = replace(solution, steps=D.steps + solution.steps)
         history.append(total())
         if history[-2] - history[-1] <= how.rtol * abs(history[-2]):
             break
-    return BidirectionalSolution(one, other, np.asarray(history))
+    return BidirectionalSolution(C, D, np.asarray(history))

@@ -14,7 +14,7 @@ from kfmaps.fmap.solvers import Operator
 
 
 def jacobi(diagonal: Array) -> Operator:
-    """Return the division by ``diagonal (k_t, k_s)``; entries that the energy does not see are left as they are."""
+    """Return the division by ``diagonal (k_t, k_s)``, which leaves entries alone where the diagonal is zero."""
     safe = _safe(diagonal)
     return lambda r: r / safe
 
@@ -27,7 +27,7 @@ def sylvester(energy: Energy) -> Operator:
     S_t, S_s = energy.sides()
     xp = namespace(S_t, S_s)
     U_t, U_s = xp.linalg.eigh(S_t)[1], xp.linalg.eigh(S_s)[1]
-    safe = _safe(energy.rotated_diagonal(U_t, U_s))
+    safe = _safe(energy.diagonal(U_t, U_s))
     return lambda r: U_t @ ((U_t.T @ r @ U_s) / safe) @ U_s.T
 
 

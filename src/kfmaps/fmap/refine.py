@@ -1,7 +1,7 @@
-"""What a refinement is, and ICP; :mod:`kfmaps.fmap.zoomout` is the other.
+"""The interface of refinements, and ICP; :mod:`kfmaps.fmap.zoomout` is the other refinement.
 
 Refinements are frozen settings, callable as ``(C, source, target) -> Refined``. ``points``, where given, is the point
-map of ``C`` itself (:func:`kfmaps.fmap.convert.to_points`), which then need not be found again.
+map of ``C`` itself (:func:`kfmaps.fmap.convert.to_points`), which then need not be computed again.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from kfmaps.geometry.basis import Basis
 
 @dataclass(frozen=True, eq=False)
 class Refined:
-    """What a refinement returns."""
+    """The result of a refinement."""
 
     functional_map: Array  # (k_t, k_s)
     target_to_source: np.ndarray  # (n_t,)
@@ -28,11 +28,11 @@ class Refined:
 
 
 class Refinement(Protocol):
-    """What improves a functional map and its point map: a record of this module or any callable of this signature.
+    """A callable that improves a functional map and its point map.
 
-    Three attributes are used where it has them: ``n_eigenfunctions`` that both shapes need, ``descriptor_weight`` above
-    0, which asks for descriptors as the argument ``guide``, and ``limited(n)``, the same with at most n eigenfunctions,
-    for shapes that differ much.
+    Three attributes are used where it has them: ``n_eigenfunctions``, which both shapes need; ``descriptor_weight``,
+    above 0 where it wants descriptors as the argument ``guide``; and ``limited(n)``, which returns the same with at
+    most n eigenfunctions, for shapes that differ much.
     """
 
     def __call__(
@@ -47,10 +47,10 @@ class Refinement(Protocol):
 
 @settings_record
 class ICP:
-    """Match, fit, take the nearest orthogonal matrix; ``steps`` times (Ovsjanikov et al. 2012).
+    """Convert to points, fit a map to them, take the nearest orthogonal matrix; ``steps`` times.
 
-    Needs a square map; stops early when no point changes. Of a point map that reaches too few vertices to say where
-    every function goes, the matrix is a partial isometry.
+    It needs a square map and stops early when no point changes (Ovsjanikov et al. 2012). Where the images are too few
+    to determine the map, the matrix is a partial isometry.
     """
 
     steps: int = setting(5, "steps of ICP", low=1)
@@ -72,11 +72,10 @@ class ICP:
         changes: list[int] = []
         for step in range(self.steps):
             u, sizes, vh = xp.linalg.svd(to_functional(points, source, target), full_matrices=False)
-            # Directions that the points say nothing of would be turned at random, by rounding.
+            # Directions that the points do not determine would be rotated at random, by rounding.
             C = (u * xp.astype(sizes > 1e-12 * sizes[0], C.dtype)[None, :]) @ vh
-            moved = to_points(C, source, target)
-            changes.append(int(np.count_nonzero(moved != points)))
-            points = moved
+            previous, points = points, to_points(C, source, target)
+            changes.append(int(np.count_nonzero(points != previous)))
             if progress is not None:
                 progress((step + 1) / self.steps)
             if changes[-1] == 0:

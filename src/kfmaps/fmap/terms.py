@@ -22,8 +22,8 @@ class Term(Protocol):
         """Return ``B``."""
         ...
 
-    def diagonal(self) -> Array:
-        """Return the exact diagonal of ``A``."""
+    def diagonal(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        """Return the exact diagonal of ``A``, or of ``C ↦ U_tᵀ A(U_t C U_sᵀ) U_s`` for orthogonal ``U_t``, ``U_s``."""
         ...
 
     def constant(self) -> float:
@@ -34,10 +34,6 @@ class Term(Protocol):
         """Return ``S_t`` (k_t, k_t) and ``S_s`` (k_s, k_s) of the part ``S_t C + C S_s`` of ``A``; zeros for none."""
         ...
 
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        """Return the exact diagonal of ``C ↦ U_tᵀ A(U_t C U_sᵀ) U_s`` for orthogonal ``U_t``, ``U_s``."""
-        ...
-
 
 def value(term: Term, C: Array) -> float:
     """Return half the squared residual of a term at ``C (k_t, k_s)``."""
@@ -46,12 +42,12 @@ def value(term: Term, C: Array) -> float:
 
 @dataclass(frozen=True, eq=False)
 class CompletedTerm:
-    """A term of the user's own with what preconditioners need beside it; made by :func:`complete_term`.
+    """A user's term with what preconditioners need besides; made by :func:`complete_term`.
 
-    Nothing is known of its operator in other bases: it has no one-sided parts, and its diagonal there is the mean.
+    Its one-sided parts are zero, and its diagonal in other bases, which nobody knows, is taken to be the mean.
     """
 
-    term: Any  # has these four methods
+    term: Any  # has the first four methods of :class:`Term`
 
     def apply(self, C: Array) -> Array:
         return self.term.apply(C)
@@ -59,8 +55,13 @@ class CompletedTerm:
     def rhs(self) -> Array:
         return self.term.rhs()
 
-    def diagonal(self) -> Array:
-        return self.term.diagonal()
+    def diagonal(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        diagonal = self.term.diagonal()
+        if U_t is None or U_s is None:
+            return diagonal
+        xp = namespace(diagonal)
+        mean = float(xp.mean(diagonal))
+        return xp.full((U_t.shape[1], U_s.shape[1]), mean, dtype=diagonal.dtype, device=diagonal.device)
 
     def constant(self) -> float:
         return self.term.constant()
@@ -69,14 +70,9 @@ class CompletedTerm:
         B = self.term.rhs()
         return _zeros(B.shape[0], B), _zeros(B.shape[1], B)
 
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        xp, diagonal = namespace(U_t), self.term.diagonal()
-        mean = float(xp.mean(diagonal))
-        return xp.full((U_t.shape[1], U_s.shape[1]), mean, dtype=diagonal.dtype, device=diagonal.device)
-
 
 def complete_term(term: Any) -> Term:
-    """Return ``term``, which has ``apply``, ``rhs``, ``diagonal`` and ``constant``, as a whole :class:`Term`.
+    """Return ``term``, an object with ``apply``, ``rhs``, ``diagonal`` and ``constant``, as a :class:`Term`.
 
     Raises
     ------
@@ -86,12 +82,12 @@ def complete_term(term: Any) -> Term:
     missing = [name for name in ("apply", "rhs", "diagonal", "constant") if not hasattr(term, name)]
     if missing:
         raise refuse("term", "an object with apply, rhs, diagonal and constant", f"no {missing[0]}", "add that method")
-    return term if hasattr(term, "rotated_diagonal") and hasattr(term, "sides") else CompletedTerm(term)
+    return term if hasattr(term, "sides") else CompletedTerm(term)
 
 
 @dataclass(frozen=True, eq=False)
 class TwoSidedTerm:
-    """What terms ``½⟨C, gram_t C + C gram_s − 2 M(C)⟩`` share; in a commutativity ``M(C)`` is ``Σᵢ X_tⁱ C X_sⁱ``."""
+    """Base of terms ``½⟨C, gram_t C + C gram_s − 2 M(C)⟩``; ``M(C)`` of a commutativity is ``Σᵢ X_tⁱ C X_sⁱ``."""
 
     gram_s: Array  # (k_s, k_s), in a commutativity ``Σᵢ X Xᵀ`` of the shape's operators
     gram_t: Array  # (k_t, k_t)
@@ -105,19 +101,15 @@ class TwoSidedTerm:
         shape = (self.gram_t.shape[0], self.gram_s.shape[0])
         return namespace(self.gram_t).zeros(shape, dtype=self.gram_t.dtype, device=self.gram_t.device)
 
-    def diagonal(self) -> Array:
-        diagonal = namespace(self.gram_t).linalg.diagonal
-        return diagonal(self.gram_t)[:, None] + diagonal(self.gram_s)[None, :] - 2 * self.coupling()
+    def diagonal(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        one_sided = rotated_diagonal(self.gram_t, U_t)[:, None] + rotated_diagonal(self.gram_s, U_s)[None, :]
+        return one_sided - 2 * self.coupling(U_t, U_s)
 
     def constant(self) -> float:
         return 0.0
 
     def sides(self) -> tuple[Array, Array]:
         return self.gram_t, self.gram_s
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
-        return own - 2 * self.coupling(U_t, U_s)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,17 +144,16 @@ def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t:
 
 @dataclass(frozen=True, eq=False)
 class OperatorCommutativity(TwoSidedTerm):
-    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the operators at hand; made by :func:`operator_term`.
+    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²``; made by :func:`operator_term`.
 
-    ``parity`` is +1 for symmetric operators (multiplication by a function), −1 for antisymmetric ones (the orientation
-    operators). They lie in two layouts that turn one application into two matrix products, in the precision that
-    they are stored in; the Gram matrices, without which small differences would be lost, are not rounded.
+    The operators are stacked so that applying the term takes two matrix products, in the precision that they are stored
+    in. The Gram matrices keep full precision, without which small differences would be lost.
     """
 
     left: Array  # (k_t · r, k_t): the target's operators, row a of operator i at a·r + i
     right: Array  # (r · k_s, k_s): the source's operators, one below the other
-    cross_diagonal: Array  # zero where the operators are antisymmetric, as in every basis
-    parity: int
+    cross_diagonal: Array  # (k_t, k_s): ``Σᵢ diag(X_tⁱ) diag(X_sⁱ)ᵀ``; zero where the operators are antisymmetric
+    parity: int  # +1 for symmetric operators (multiplication by a function), −1 for antisymmetric ones (orientation)
 
     @property
     def count(self) -> int:
@@ -172,16 +163,16 @@ class OperatorCommutativity(TwoSidedTerm):
     def apply(self, C: Array) -> Array:
         xp = namespace(C)
         k_t, k_s = C.shape
-        carried = xp.reshape(self.left @ xp.astype(C, self.left.dtype, copy=False), (k_t, self.count * k_s))
-        return C @ self.gram_s + self.gram_t @ C - (2 * self.parity) * (carried @ self.right)
+        products = xp.reshape(self.left @ xp.astype(C, self.left.dtype, copy=False), (k_t, self.count * k_s))
+        return C @ self.gram_s + self.gram_t @ C - (2 * self.parity) * (products @ self.right)
 
     def coupling(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
         if U_t is None or U_s is None:
             return self.cross_diagonal
         xp, k_t, k_s = namespace(self.gram_t), U_t.shape[0], U_s.shape[0]
-        of_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
-        of_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
-        return of_t.T @ of_s
+        diagonals_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
+        diagonals_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
+        return diagonals_t.T @ diagonals_s
 
 
 def operator_term(
@@ -233,8 +224,10 @@ class Elementwise:
     def rhs(self) -> Array:
         return namespace(self.weights).zeros_like(self.weights)
 
-    def diagonal(self) -> Array:
-        return self.weights
+    def diagonal(self, U_t: Array | None = None, U_s: Array | None = None) -> Array:
+        if U_t is None or U_s is None:
+            return self.weights
+        return (U_t * U_t).T @ self.weights @ (U_s * U_s)
 
     def constant(self) -> float:
         return 0.0
@@ -242,9 +235,6 @@ class Elementwise:
     def sides(self) -> tuple[Array, Array]:
         k_t, k_s = self.weights.shape
         return _zeros(k_t, self.weights), _zeros(k_s, self.weights)
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        return (U_t * U_t).T @ self.weights @ (U_s * U_s)
 
 
 def laplacian_term(
@@ -275,12 +265,12 @@ def laplacian_term(
         difference = (source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale
         return Elementwise(difference * difference)
     check_positive(power, "resolvent power", "0.5 is usual")
-    parts = []
+    resolvents = []
     for basis in (source, target):
         root = xp.where(basis.eigenvalues > 0, basis.eigenvalues, xp.zeros_like(basis.eigenvalues)) / scale
         root = root**power
-        parts.append((root / (root * root + 1), 1 / (root * root + 1)))  # real and imaginary part of 1 / (λ^γ − i)
-    real, imaginary = (t[:, None] - s[None, :] for s, t in zip(*parts, strict=True))
+        resolvents.append((root / (root * root + 1), 1 / (root * root + 1)))  # real and imaginary part of 1 / (λ^γ − i)
+    real, imaginary = (t[:, None] - s[None, :] for s, t in zip(*resolvents, strict=True))
     return Elementwise(real * real + imaginary * imaginary)
 
 
@@ -304,9 +294,10 @@ def _zeros(k: int, like: Array) -> Array:
     return namespace(like).zeros((k, k), dtype=like.dtype, device=like.device)
 
 
-def rotate_gram(gram: Array, U: Array) -> Array:
-    """Return the diagonal of ``Uᵀ gram U`` for ``gram (k, k)`` and orthogonal ``U``."""
-    return namespace(gram).sum(U * (gram @ U), axis=0)
+def rotated_diagonal(gram: Array, U: Array | None) -> Array:
+    """Return the diagonal of ``Uᵀ gram U`` for ``gram (k, k)`` and orthogonal ``U``, of ``gram`` without ``U``."""
+    xp = namespace(gram)
+    return xp.linalg.diagonal(gram) if U is None else xp.sum(U * (gram @ U), axis=0)
 
 
 def check_same_count(a: Array, b: Array) -> None:

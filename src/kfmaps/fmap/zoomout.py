@@ -2,7 +2,7 @@
 
 :class:`ZoomOut` refines one map, on all points or on samples, :meth:`ZoomOut.bidirectional` both maps of a pair, and
 :func:`batched_zoomout` many maps on few samples. The steps are the same: each target point takes the nearest image of a
-source point, and of these points comes the map of the next size, on samples by damped least squares.
+source point, and the next, larger map is fitted to these points, on samples by damped least squares.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
+from kfmaps._arrays import Array, blocks, namespace, refuse, take, to_numpy
 from kfmaps._progress import StageProgress
 from kfmaps._records import check_record, setting, settings_record
 from kfmaps._threads import parallel
@@ -25,17 +25,17 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_samples, stratified_vertices
 
 MAX_CANDIDATES, _CANDIDATES_PER_SAMPLE = 8_000, 2
-"""Source points that steps on samples choose from, at most: in all, and for each sample of the target."""
+"""Most candidates, source points whose images are searched in steps on samples: in all, and per target sample."""
 MAX_EXACT_PAIRS = 2_000_000
 """Pairs of points above which steps on samples search approximately."""
-_RIDGE = 0.1  # damping of the least squares on samples, in units of their areas' sum
+_RIDGE = 0.1  # damping of least squares on samples, in units of the sum of their areas
 _PAIRS_PER_BATCH = 1_000_000
-"""Pairs of points of the maps refined together by :func:`batched_zoomout`: score matrices that stay in the cache."""
+"""Pairs of points of a batch of :func:`batched_zoomout`, so that its score matrices stay in the cache."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Points:
-    """A basis at some ``vertices (q,)`` of a shape; at all of them where that is ``None``."""
+    """A basis at some ``vertices (q,)`` of a shape; ``None`` is all of them."""
 
     basis: Basis
     vertices: np.ndarray | None = None
@@ -45,14 +45,14 @@ class _Points:
 class ZoomOut:
     """Point map and functional map in turn while the basis grows (Melzi et al. 2019).
 
-    A functional map larger than ``start`` is truncated to it, a smaller one starts at its own size. Where there are
-    more than ``samples`` points of the target, the steps before the last work on so many: the functional map is fitted
-    to them by damped least squares, each weighted by the area that is closest to it, and of a source with more than
-    twice as many points, or :data:`MAX_CANDIDATES`, that many are there to be chosen. The map returned is that of the
-    last points, which are all.
+    A functional map larger than ``start`` is truncated to it, a smaller one starts at its own size. Where the target
+    has more than ``samples`` points, all steps but the last work on samples of it. The functional map is fitted to them
+    by damped least squares, weighted by the areas closest to them. Their images are searched among at most twice as
+    many samples of the source, or :data:`MAX_CANDIDATES`. The last step works on all points.
 
-    ``descriptor_weight`` is the mean squared difference of two random points, which in k functions is about 2 k, and
-    has an effect only where :meth:`__call__` is given descriptors; 0 is ZoomOut as published.
+    ``descriptor_weight`` is the mean squared difference of the descriptors of two random points, beside which that of k
+    functions is about 2 k. It has an effect only where :meth:`__call__` is given descriptors; 0 is ZoomOut as
+    published.
     """
 
     start: int = setting(20, "first size of ZoomOut", low=2)
@@ -92,20 +92,19 @@ class ZoomOut:
     ) -> Refined:
         sizes = self._sizes(C, source, target)
         first = sizes[0]
-        few_t, few_s = self._samples(target), _Points(source)
-        sampled = few_t.vertices is not None
-        if sampled:
-            few_s = self._candidates(source)
+        all_s, all_t = _Points(source), _Points(target)
+        samples_t = self._samples(target)
+        sampled = samples_t.vertices is not None
+        samples_s = self._candidates(source) if sampled else all_s
         if tuple(C.shape) != (first, first) or sampled or (guide is not None and self.descriptor_weight):
             points = None
-        # What an approximate search misses on samples is found by the steps that follow.
-        search = _approximate(few_s, few_t) if sampled else {"probes": N_PROBE_FAST}
-        all_s, all_t = _Points(source), _Points(target)
+        # Later steps repair what an approximate search on samples misses.
+        search = _approximate_search(samples_s, samples_t) if sampled else {"probes": N_PROBE_FAST}
         C = C[:first, :first]
         for i, larger in enumerate(sizes[1:]):
             if points is None:
-                points = self._nearest(C, few_s, few_t, guide, **search)
-            C, points = fit_functional_map(points, few_s.basis, few_t.basis, larger), None
+                points = self._nearest(C, samples_s, samples_t, guide, **search)
+            C, points = fit_functional_map(points, samples_s.basis, samples_t.basis, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
         if points is None:
@@ -125,11 +124,11 @@ class ZoomOut:
         progress: StageProgress | None = None,
         guide: DescriptorGuidance | None = None,
     ) -> tuple[Refined, Refined]:
-        """Refine the maps of both directions, each held close to the adjoint of the other.
+        """Refine the maps of both directions, each the adjoint of the other.
 
-        The mean of the map forth and the adjoint of the map back is the next map, its adjoint the next map back (Ren et
-        al., Continuous and orientation-preserving correspondences via functional maps, 2018, couple the two likewise;
-        the mean is ours). Swapping the shapes and the maps swaps the answers.
+        In each step the mean of the new map and the adjoint of the new map back replaces the map, and its adjoint the
+        map back. Ren et al. (Continuous and orientation-preserving correspondences via functional maps, 2018) couple
+        the two similarly; the mean is ours. Swapping the shapes and the maps swaps the results.
 
         ``C (k_t, k_s)`` and ``back (k_s, k_t)``; ``progress`` and ``guide`` as in :meth:`__call__`.
 
@@ -143,30 +142,29 @@ class ZoomOut:
             wanted = f"shape {(C.shape[1], C.shape[0])}"
             raise refuse("map back", wanted, f"shape {tuple(back.shape)}", "give the map from target to source")
         guide_back = guide and guide.swapped()
-        few_s, few_t = self._samples(source), self._samples(target)
-        from_s, from_t = (
-            few if few.vertices is None else self._candidates(side) for few, side in ((few_s, source), (few_t, target))
-        )
+        samples_s, samples_t = self._samples(source), self._samples(target)
+        candidates_s = samples_s if samples_s.vertices is None else self._candidates(source)
+        candidates_t = samples_t if samples_t.vertices is None else self._candidates(target)
         first = sizes[0]
         C = 0.5 * (C[:first, :first] + back[:first, :first].T)
         for i, larger in enumerate(sizes[1:]):
-            points = self._nearest(C, from_s, few_t, guide)
-            forth = fit_functional_map(points, from_s.basis, few_t.basis, larger)
-            points = self._nearest(C.T, from_t, few_s, guide_back)
-            C = 0.5 * (forth + fit_functional_map(points, from_t.basis, few_s.basis, larger).T)
+            points = self._nearest(C, candidates_s, samples_t, guide)
+            forward = fit_functional_map(points, candidates_s.basis, samples_t.basis, larger)
+            points = self._nearest(C.T, candidates_t, samples_s, guide_back)
+            C = 0.5 * (forward + fit_functional_map(points, candidates_t.basis, samples_s.basis, larger).T)
             if progress is not None:
                 progress((i + 1) / len(sizes))
         all_s, all_t = _Points(source), _Points(target)
-        found = (
+        refined = (
             Refined(C, self._nearest(C, all_s, all_t, guide), tuple(sizes)),
             Refined(C.T, self._nearest(C.T, all_t, all_s, guide_back), tuple(sizes)),
         )
         if progress is not None:
             progress(1.0)
-        return found
+        return refined
 
     def _sizes(self, C: Array, source: Basis, target: Basis) -> list[int]:
-        """Sizes of the map at the steps, the first at most that of ``C``."""
+        """Return the sizes of the map at the steps, the first at most that of ``C``."""
         available = min(source.functions.shape[1], target.functions.shape[1])
         if self.stop > available:
             remedy = "compute more eigenfunctions or lower stop"
@@ -174,14 +172,14 @@ class ZoomOut:
         return [*range(min(self.start, *C.shape), self.stop, self.step), self.stop]
 
     def _samples(self, basis: Basis) -> _Points:
-        """The points that a step finds images for."""
+        """Return the points that a step searches images for."""
         if self.samples is None or self.samples >= basis.functions.shape[0]:
             return _Points(basis)
-        found = stratified_samples(basis, self.samples, self.seed)
-        return _Points(found.basis, found.vertices)
+        samples = stratified_samples(basis, self.samples, self.seed)
+        return _Points(samples.basis, samples.vertices)
 
     def _candidates(self, basis: Basis) -> _Points:
-        """The points that a step on samples chooses images from."""
+        """Return the points whose images a step on samples searches."""
         assert self.samples is not None
         count = min(MAX_CANDIDATES, _CANDIDATES_PER_SAMPLE * self.samples)
         if basis.functions.shape[0] <= count:
@@ -198,16 +196,16 @@ class ZoomOut:
         guide: DescriptorGuidance | None,
         **search: Any,
     ) -> np.ndarray:
-        """A point of ``source`` for each of ``target``."""
+        """Return the nearest point of ``source`` for each of ``target``."""
         columns = None
         if guide is not None and self.descriptor_weight:
-            some = guide.at(source.vertices, target.vertices)
-            columns = some.embedding_columns(self.descriptor_weight, source.basis, target.basis)
+            guide = guide.at(source.vertices, target.vertices)
+            columns = guide.embedding_columns(self.descriptor_weight, source.basis, target.basis)
         return to_points(C, source.basis, target.basis, columns, **search)
 
 
-def _approximate(source: _Points, target: _Points) -> dict[str, Any]:
-    """Options of a search between so many points whose answer need not be quite the nearest."""
+def _approximate_search(source: _Points, target: _Points) -> dict[str, Any]:
+    """Return the options of a fast search that is approximate between many points."""
     pairs = source.basis.functions.shape[0] * target.basis.functions.shape[0]
     return {"exact": False if pairs > MAX_EXACT_PAIRS else None, "probes": N_PROBE_FAST}
 
@@ -215,29 +213,30 @@ def _approximate(source: _Points, target: _Points) -> dict[str, Any]:
 def fit_functional_map(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = _RIDGE) -> Array:
     """Return the functional map ``(k, k)`` of a point map, on all points of ``target`` or on samples of it.
 
-    On all points the basis is orthonormal and the map is the projection ``Φ_tᵀ A_t Φ_s[points]``. Samples are not
-    quite, so the map is theirs by least squares. Undamped that follows the noise of the points when they are few for k;
-    plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
+    On all points the basis is orthonormal and the map is the projection ``Φ_tᵀ A_t Φ_s[points]``. On samples it is not
+    quite, and the map is fitted by least squares. Undamped, that follows the noise of few points, while projection has
+    the error of the quadrature. ``ridge`` stands between the two, and the size is corrected for it.
 
     ``points (n_t,)``: rows of ``source`` for those of ``target``.
     """
     if not isinstance(target, SampledBasis):
         return to_functional(points, source.truncate(k), target.truncate(k))
-    return _damped_solve(target, k, lambda weighted: weighted @ take(source.functions[:, :k], points), ridge)
+    return _damped_solve(target, k, take(source.functions[:, :k], points), ridge)
 
 
-def _damped_solve(basis: Basis, k: int, right: Callable[[Array], Array], ridge: float = _RIDGE) -> Array:
-    """``(1 + ridge) (ΦᵀAΦ + ridge)⁻¹ right(ΦᵀA)`` on samples."""
+def _damped_solve(basis: Basis, k: int, values: Array | None = None, ridge: float = _RIDGE) -> Array:
+    """Return ``(1 + ridge) (ΦᵀAΦ + ridge)⁻¹ ΦᵀA values`` on samples, without ``values`` that of the identity."""
     xp = namespace(basis.functions)
     phi = basis.functions[:, :k]
     weighted = (basis.mass[:, None] * phi).T
     identity = xp.eye(k, dtype=phi.dtype, device=phi.device)
-    return (1 + ridge) * xp.linalg.solve(weighted @ phi + ridge * identity, right(weighted))
+    right = weighted if values is None else weighted @ values
+    return (1 + ridge) * xp.linalg.solve(weighted @ phi + ridge * identity, right)
 
 
 def pseudo_inverse(basis: SampledBasis, k: int) -> np.ndarray:
     """Return the matrix ``(k, q)`` float32 from values at samples to coefficients, by damped least squares."""
-    return np.asarray(to_numpy(_damped_solve(basis, k, lambda weighted: weighted)), dtype=np.float32)
+    return np.asarray(to_numpy(_damped_solve(basis, k)), dtype=np.float32)
 
 
 def batched_zoomout(
@@ -250,11 +249,11 @@ def batched_zoomout(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Refine ``maps (m, k, k)`` on samples in single precision; return them and a source sample for each target sample.
 
-    The maps returned have the last of the ``sizes``, which grow from at most k; of the given ones the leading blocks of
-    the first size count. ``source`` and ``target``: q_s and q_t samples of unit area. ``cost``: half the squared
-    differences of descriptors, (q_t, q_s) or (m, q_t, q_s), up to a constant for each target sample
-    (:func:`kfmaps.matching.sample_pair.descriptor_cost`). ``solvers``: :func:`pseudo_inverse` of the target for k
-    functions, where many refinements share them.
+    ``sizes``: of the maps at the steps, ascending from at most k; maps are truncated to the first and returned at the
+    last. ``source`` and ``target``: q_s and q_t samples of unit area. ``cost``: half the squared differences of
+    descriptors, (q_t, q_s) or (m, q_t, q_s), up to a constant for each target sample
+    (:func:`kfmaps.matching.sample_pair.descriptor_cost`). ``solvers``: cached :func:`pseudo_inverse` of the target for
+    k functions.
     """
     phi_s = np.asarray(to_numpy(source.functions)[:, : sizes[-1]], dtype=np.float32)
     phi_t = np.asarray(to_numpy(target.functions)[:, : sizes[-1]], dtype=np.float32)
@@ -262,16 +261,15 @@ def batched_zoomout(
     steps = [(k, solver(k)) for k in sizes[1:]]
     count = max(1, _PAIRS_PER_BATCH // (len(phi_s) * len(phi_t)))
 
-    def refine(first: int) -> tuple[np.ndarray, np.ndarray]:
-        some = slice(first, first + count)
-        own_cost = cost[some] if cost is not None and cost.ndim == 3 else cost
-        C = np.asarray(maps[some, : sizes[0], : sizes[0]], dtype=np.float32)
+    def refine(batch: slice) -> tuple[np.ndarray, np.ndarray]:
+        batch_cost = cost[batch] if cost is not None and cost.ndim == 3 else cost
+        C = np.asarray(maps[batch, : sizes[0], : sizes[0]], dtype=np.float32)
         for larger, inverse in steps:
-            C = inverse @ phi_s[:, :larger][nearest_samples(C, phi_s, phi_t, own_cost)]
-        return np.asarray(C, dtype=np.float64), nearest_samples(C, phi_s, phi_t, own_cost)
+            C = inverse @ phi_s[:, :larger][nearest_samples(C, phi_s, phi_t, batch_cost)]
+        return np.asarray(C, dtype=np.float64), nearest_samples(C, phi_s, phi_t, batch_cost)
 
-    found = parallel(refine, range(0, len(maps), count))
-    return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
+    refined, points = zip(*parallel(refine, blocks(len(maps), count)), strict=True)
+    return np.concatenate(refined), np.concatenate(points)
 
 
 def nearest_samples(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, cost: np.ndarray | None = None) -> np.ndarray:
@@ -281,7 +279,7 @@ def nearest_samples(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, cost: n
     ``cost``: see :func:`batched_zoomout`.
     """
     k = C.shape[1]
-    # One column more holds half the squared length, so that the product is the whole score.
+    # One more column holds half the squared length, so that the product is ``x·y − ½|y|²``.
     images = np.empty((len(C), len(phi_s), k + 1), dtype=np.float32)
     images[:, :, :k] = phi_s[:, :k] @ C.transpose(0, 2, 1)
     images[:, :, k] = -0.5 * np.einsum("mik,mik->mi", images[:, :, :k], images[:, :, :k])
