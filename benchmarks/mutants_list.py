@@ -420,12 +420,16 @@ MUTANTS = tuple(
             "test_shape_differences",
         ),
         (
-            "return own - 2 * MAX_LOG_ODDS if one.orientation < SCORE.min_orientation else own",
-            "return own",
+            "return log_odds - 2 * MAX_LOG_ODDS if one.orientation < SCORE.min_orientation else log_odds",
+            "return log_odds",
             "test_collection -k inside_out",
         ),
         ("squares / whole if whole > 0", "sizes[:kept] / whole if whole > 0", "test_shape_differences -k component"),
-        ("if made.score > least and residual < own[i]", "if residual < own[i]", "test_collection -k loose"),
+        (
+            "if composition.score > least and residual < in_use[i]",
+            "if residual < in_use[i]",
+            "test_collection -k loose",
+        ),
         (
             "paths = _two_step_paths(self.ends, self.maps, i)",
             "paths = _two_step_paths(self.ends, self.maps, i)[:0]",
@@ -985,15 +989,23 @@ MUTANTS = tuple(
         # drawn blindly with seed 20261124, or reached by no test before
         ("and last - now <= how.rtol", "and last + now <= how.rtol", "test_formulations -k gains_little"),
         ("(2.4 * k + 60)", "(2.4 / k + 60)", "test_eigensolver_loose -k progress"),
-        ("pinv(own, rcond=0.05)", "pinv(own, rcond=0.1)", "test_shape_differences -k hardly"),
+        ("pinv(maps, rcond=0.05)", "pinv(maps, rcond=0.1)", "test_shape_differences -k hardly"),
         ("lower, bound = _polar_step(energy, right, point, bound)", "lower = None", "test_formulations -k bends_down"),
         ("rows.append(values[part.to_original])", "rows.append(values)", "test_cleaning -k left_out_change"),
         ("signs[worst] *= -1", "signs[worst] *= 1", "test_collection -k handedness"),
         ("csr_array(eye_array(size) - whole)", "csr_array(eye_array(size) + whole)", "test_collection -k frames_of"),
         ("table[:, 0].astype(np.int64) - 1, weights", "table[:, 0].astype(np.int64), weights", "test_transfer_parts"),
         # the time that a batch still takes
-        ("heapq.heapreplace(free, free[0] + seconds)", "heapq.heapreplace(free, seconds)", "test_batch_found -k time"),
-        ("max(lasts[number] - seconds, lasts[number] / 2)", "lasts[number] - seconds", "test_batch_found -k time"),
+        (
+            "heapq.heapreplace(free_at, free_at[0] + seconds)",
+            "heapq.heapreplace(free_at, seconds)",
+            "test_batch_found -k time",
+        ),
+        (
+            "max(durations[number] - seconds, durations[number] / 2)",
+            "durations[number] - seconds",
+            "test_batch_found -k time",
+        ),
         ("pace * (size + _FIXED_VERTICES)", "pace * size", "test_batch_found -k time"),
     )
 )

@@ -25,7 +25,7 @@ from kfmaps.batch.progress import RunStatus
 from kfmaps.batch.results import Result
 from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.batch.transfer_landmarks import Template, carry_templates, read_templates
+from kfmaps.batch.transfer_landmarks import Template, propagate_landmarks, read_templates
 from kfmaps.config import Config
 from kfmaps.io.landmark_files import read_landmark_sets
 
@@ -58,7 +58,7 @@ def measure(
 ) -> Measured:
     """Carry the landmarks of some templates to a target and compare them with the expert's."""
     own = {one.specimen: results[one.specimen, target] for one in templates}
-    found = carry_templates(templates, target, scans.shapes[target], own, plan.folder)
+    found = propagate_landmarks(templates, target, scans.shapes[target], own, plan.folder)
     (truth,) = read_landmark_sets(scans.shapes[target].with_suffix(".mrk.json"))
     where = dict(zip(truth.names, truth.points, strict=True))
     points = np.array([where[name] for name in found.points.names])

@@ -14,7 +14,7 @@ import pytest
 from collecting import bent
 from kfmaps.batch.landmark_tables import write_study
 from kfmaps.batch.layout import find_collection
-from kfmaps.batch.transfer_landmarks import given_landmarks, read_templates
+from kfmaps.batch.transfer_landmarks import read_templates, template_landmarks
 from kfmaps.io import write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, write_landmark_sets
 from kfmaps.viz.landmark_review import ReviewServer
@@ -41,8 +41,8 @@ def study(tmp_path: Path) -> Path:
         points[4] = np.nan if name == "b" else points[4]
         write_landmark_sets(tmp_path / f"{name}.mrk.json", [LandmarkSet(LABELS, points, space="LPS")])
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abcd"], find_collection(scans))
-    made = [given_landmarks(one) for one in templates]
-    carried = [replace(one, verdict="sure", chance=0.875, n_maps=1) for one in made[1:]]
+    made = [template_landmarks(one) for one in templates]
+    carried = [replace(one, verdict="sure", probability=0.875, n_maps=1) for one in made[1:]]
     carried[0] = replace(carried[0], flags=("", "low confidence", "", "", "no counterpart"))
     carried[2] = replace(carried[2], misfit="it is a cat")
     write_study(tmp_path / "study", [made[0], *carried], ".mrk.json")

@@ -22,11 +22,11 @@ from kfmaps.batch.transfer_landmarks import (
     MAX_SPREAD,
     SpecimenLandmarks,
     Template,
-    carry_templates,
     drop_unsure,
-    given_landmarks,
+    propagate_landmarks,
     read_templates,
     template_errors,
+    template_landmarks,
     template_pairs,
 )
 from kfmaps.batch.work import map_path
@@ -68,7 +68,7 @@ def maps(folder: Path, pairs: list[tuple[str, str]], chance: float = 0.9) -> dic
 def carried(templates: list[Template], name: str, results: dict[Pair, Result], folder: Path) -> SpecimenLandmarks:
     """The templates' landmarks on a scan, over the maps of all templates to it."""
     own = {one.specimen: results[Pair(one.specimen, name)] for one in templates}
-    return carry_templates(templates, name, folder / "scans" / f"{name}.ply", own, folder)
+    return propagate_landmarks(templates, name, folder / "scans" / f"{name}.ply", own, folder)
 
 
 def test_one_template_over_true_maps(scans: Path, tmp_path: Path) -> None:
@@ -79,10 +79,10 @@ def test_one_template_over_true_maps(scans: Path, tmp_path: Path) -> None:
     np.testing.assert_allclose(one.points.confidence, 0.9 * 0.8)
     assert one.flags == ("",) * 5
     assert np.isnan(one.spread).all()
-    assert np.isnan(one.rival).all()
+    assert np.isnan(one.rival_distance).all()
     assert (one.misfit, one.space) == ("", "LPS")
     low = maps(tmp_path, [("a", "b")], chance=0.6)[Pair("a", "b")]
-    one = carry_templates([template], "b", scans / "b.ply", {"a": low}, tmp_path)
+    one = propagate_landmarks([template], "b", scans / "b.ply", {"a": low}, tmp_path)
     assert one.flags == ("low confidence",) * 5
     gone = drop_unsure(one, 0.5).points
     assert (gone.vertices == -1).all()
@@ -100,7 +100,7 @@ def test_the_distance_to_the_best_other_map(scans: Path, tmp_path: Path) -> None
     mesh = read_mesh(scans / "b.ply").vertices
     elsewhere = [mesh[np.argsort(other)[AT]] for other in turned]
     expected = np.min([np.linalg.norm(points - mesh[AT], axis=1) for points in elsewhere], axis=0)
-    np.testing.assert_allclose(one.rival, expected, rtol=1e-6)
+    np.testing.assert_allclose(one.rival_distance, expected, rtol=1e-6)
 
 
 def test_three_templates_outvote_one_that_is_off(scans: Path, tmp_path: Path) -> None:
@@ -158,7 +158,7 @@ def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
     results = maps(tmp_path, [("a", name) for name in "bcd"])
     results[Pair("a", "b")] = replace(results[Pair("a", "b")], verdict="unlikely", confidence=0.12)
     results[Pair("a", "c")] = Result("a", "c", "failed", "", "", reason="too large")
-    study = [given_landmarks(templates[0])]
+    study = [template_landmarks(templates[0])]
     study += [carried(templates, name, results, tmp_path) for name in "bcd"]
     flagged = replace(study[3], flags=("low confidence", "", "", "", ""))
     lines = _describe_study([study[0], flagged, flagged], templates, np.array([[0.1, 0.5, np.nan, 0.1, 0.1]]))
@@ -183,7 +183,7 @@ def test_a_map_that_swaps_left_and_right_is_recognized(scans: Path, tmp_path: Pa
     mesh = read_mesh(scans / "b.ply")
     center = mesh.vertices.mean(axis=0)
     write_mesh(tmp_path / "m.ply", Mesh((mesh.vertices - center) * [1, 1, -1] + center, mesh.faces[:, ::-1]))
-    one = carry_templates([template], "b", tmp_path / "m.ply", {"a": results[Pair("a", "b")]}, tmp_path)
+    one = propagate_landmarks([template], "b", tmp_path / "m.ply", {"a": results[Pair("a", "b")]}, tmp_path)
     assert "mirror image" in one.misfit
     points = read_mesh(tmp_path / "m.ply").vertices[AT]
     write_landmark_sets(tmp_path / "m.tps", [LandmarkSet(LABELS, points, "m")])
@@ -210,7 +210,7 @@ def test_names_of_templates(scans: Path, tmp_path: Path) -> None:
 def test_tables_and_statistics(scans: Path, tmp_path: Path) -> None:
     collection = find_collection(scans)
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abcd"], collection)
-    study: list[SpecimenLandmarks] = [given_landmarks(one) for one in templates]
+    study: list[SpecimenLandmarks] = [template_landmarks(one) for one in templates]
     study[3] = replace(study[3], flags=("", "look here", "", "", ""))
     write_study(tmp_path / "out", study, ".mrk.json")
     out = tmp_path / "out"
@@ -312,7 +312,7 @@ def test_points_of_a_curve_slide_and_landmarks_do_not(scans: Path, tmp_path: Pat
     assert after < before
     close = closest_points(one.points.points, mesh.vertices, mesh.faces)
     np.testing.assert_allclose(close.distances, 0, atol=1e-6)
-    own = given_landmarks(template)
+    own = template_landmarks(template)
     write_study(tmp_path / "out", [own, one, replace(one, specimen="e")], ".mrk.json")
     markups = json.loads((tmp_path / "out" / "landmarks" / "d.mrk.json").read_text())["markups"]
     assert [(m["type"], len(m["controlPoints"])) for m in markups] == [("Fiducial", 5), ("Curve", 6)]

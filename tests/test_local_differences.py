@@ -12,7 +12,7 @@ import pytest
 from kfmaps.batch.landmark_tables import local_differences, write_local_differences
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.results import Result
-from kfmaps.batch.transfer_landmarks import given_landmarks, read_templates
+from kfmaps.batch.transfer_landmarks import read_templates, template_landmarks
 from kfmaps.batch.work import map_path
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
@@ -83,7 +83,7 @@ def test_the_table_has_a_row_for_each_landmark_of_good_maps(tmp_path: Path, verd
     (template,) = read_templates([tmp_path / "a.pts"], find_collection(tmp_path))
     (tmp_path / "maps").mkdir()
     save_map(map_path(tmp_path, "a-b"), Match(np.arange(len(source.vertices))))
-    one = given_landmarks(template)
+    one = template_landmarks(template)
     study = [one, replace(one, specimen="b", scan=tmp_path / "b.ply", verdict=verdict)]
     results = {Pair("a", "b"): Result("a", "b", "done", "", "", verdict=verdict)}
     write_local_differences(tmp_path / "d.csv", study, template, results, tmp_path)

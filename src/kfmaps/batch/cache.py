@@ -1,4 +1,4 @@
-"""Prepared shapes and their samples on disk, found again by the content of the mesh and the settings that matter."""
+"""A cache of prepared shapes and their samples on disk, by the mesh file's content and the relevant settings."""
 
 from __future__ import annotations
 
@@ -22,28 +22,25 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
-_LAYOUT = 4  # raised when what an entry holds changes
+_LAYOUT = 4  # raised when the content of entries changes
 _PLAIN = "plain"  # name of the JSON text in an entry: everything but the arrays
 
 _Record = TypeVar("_Record")
 
 
 def file_digest(path: str | Path) -> str:
-    """Return a digest of a file, 32 hexadecimal digits; of a .gltf with the files that hold its numbers."""
+    """Return a digest of a file, 32 hexadecimal digits; a .gltf includes its buffer files."""
     with open(path, "rb") as file:
         digest = hashlib.file_digest(file, "sha256")
     if Path(path).suffix.lower() == ".gltf":
         with suppress(InvalidInput):  # reported when the shape is prepared
-            for beside in buffer_files(read_bytes(path), str(path)):
-                digest.update(hashlib.sha256(read_bytes(beside)).digest())
+            for buffer_file in buffer_files(read_bytes(path), str(path)):
+                digest.update(hashlib.sha256(read_bytes(buffer_file)).digest())
     return digest.hexdigest()[:32]
 
 
 def shape_key(content: str, suffix: str, config: Config) -> str:
-    """Return the name of a cache entry: a digest of ``content``, the mesh's digest, and the settings that matter.
-
-    ``suffix`` is the file's extension, which decides how its content is read.
-    """
+    """Return the name of a cache entry: a digest of the file's digest ``content``, its extension, and the settings."""
     return digest_of(
         {
             "layout": _LAYOUT,
@@ -59,12 +56,12 @@ def shape_key(content: str, suffix: str, config: Config) -> str:
 
 
 def _samples_path(entry: Path, seed: int) -> Path:
-    """Return where the samples for this seed lie, beside the ``entry`` of their shape."""
+    """Return the file of the samples for this seed, beside the ``entry`` of their shape."""
     return entry.with_name(f"{entry.stem}.samples{seed}.npz")
 
 
 def cached_samples(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
-    """Return the samples of ``shape`` for a search: read from the cache, or computed and put there."""
+    """Return the samples of ``shape`` for a search: read from the cache, or computed and stored there."""
     path = _samples_path(entry, seed)
     samples = load_record(path, ShapeSamples)
     if samples is None:
@@ -84,8 +81,8 @@ def save_record(path: Path, record: object) -> None:
 def load_record(path: Path, kind: type[_Record]) -> _Record | None:
     """Read what :func:`save_record` wrote; ``None`` when there is none or the file is damaged."""
     try:
-        with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
-            arrays = dict(found)
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
+            arrays = dict(archive)
         return read_record(kind, json.loads(str(arrays.pop(_PLAIN))), str(path), arrays)
     except Exception:  # NumPy reports a damaged file by whatever it runs into
         return None

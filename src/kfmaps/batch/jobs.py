@@ -1,4 +1,4 @@
-"""The job runner: a function of many items on Dask workers, of this machine or of a running scheduler."""
+"""Apply a function to many items on Dask workers, on this machine or of a running scheduler."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ _SILENT = logging.CRITICAL + 1  # level of Dask's log: it reports a client that 
 MAX_DEATHS = 3
 """Workers that may die over one task before it is given up."""
 NO_WORKERS = "60s"
-"""How long a run goes on without any worker; one that was killed takes a few seconds to come back."""
+"""Time after which a run without any worker ends; a killed worker restarts within a few seconds."""
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
-"""Environment of a worker. Dask's default also makes malloc return memory at once: then page faults take a
-third of the time."""
-_WORKER_BYTES = 120e6  # what a worker takes before it does anything
-TOO_LITTLE_MEMORY = "memory may be short: the same command with fewer --workers goes on where it was"
+"""Environment of a worker. Dask's default also makes malloc return memory at once, and page faults take a third of the
+time."""
+_WORKER_BYTES = 120e6  # memory of an idle worker
+TOO_LITTLE_MEMORY = "memory may be short: run the same command with fewer --workers to go on"
 
 
 class WorkerPool:
     """Dask workers, started when they are first needed; a context that ends them.
 
-    ``workers``: processes on this machine, by default one for each core, or the address of a running Dask scheduler, to
-    use its workers instead; ``progress``: for :meth:`map`; ``log``: called when a worker dies
-    (:data:`kfmaps.batch.progress.Log`). ``begun`` has the number of each item under way, and when it began.
+    ``workers``: number of processes on this machine, by default one for each core, or the address of a running Dask
+    scheduler whose workers are used; ``progress``: for :meth:`map`; ``log``: called when a worker dies
+    (:data:`kfmaps.batch.progress.Log`). ``begun``: start times of the running items by their number.
     """
 
     def __init__(
@@ -67,25 +67,25 @@ class WorkerPool:
 
     @property
     def client(self) -> Client:
-        """The connection to the workers, which are started now if they were not."""
+        """The connection to the workers, which are started if necessary."""
         if self._client is None:
-            asked = self.workers
-            where = _running_workers(asked) if isinstance(asked, str) else _local_workers(asked)
-            self._client = self._stack.enter_context(where)
+            workers = self.workers
+            connection = _running_workers(workers) if isinstance(workers, str) else _local_workers(workers)
+            self._client = self._stack.enter_context(connection)
             threads: Any = self._client.nthreads()
             self.n_threads = sum(threads.values())
             self._client.subscribe_topic("all", self._note_event)
         return self._client
 
     def close(self) -> None:
-        """End the workers; they are started again when they are needed again."""
+        """End the workers; they start again when they are needed again."""
         if self._client is not None:
-            with suppress(Exception):  # else the scheduler would report to a client that has left
+            with suppress(Exception):  # otherwise the scheduler would report to a closed client
                 self._client.unsubscribe_topic("all")
         self._stack.close()
         self._client = None
         if self._deaths:
-            # The connection to a worker that died is closed by the garbage collector, which warns of it.
+            # The garbage collector closes the connection to a dead worker, and warns.
             with warnings.catch_warnings(action="ignore", category=ResourceWarning):
                 gc.collect()
 
@@ -94,8 +94,8 @@ class WorkerPool:
         if message.get("action") == "remove-worker" and not message.get("expected"):
             self._deaths += 1
             tasks = sorted(self._labels[key] for key in message.get("processing-tasks", ()) if key in self._labels)
-            worker, had = message.get("worker"), ", ".join(tasks) or "nothing to do"
-            self.log("worker died", f"a worker died ({worker}) while it had: {had}", worker=worker, tasks=tasks)
+            worker, task_names = message.get("worker"), ", ".join(tasks) or "nothing to do"
+            self.log("worker died", f"a worker died ({worker}) while it had: {task_names}", worker=worker, tasks=tasks)
 
     def imap(
         self,
@@ -105,13 +105,13 @@ class WorkerPool:
         label: Callable[[_Item], str] = str,
         n_begun: Callable[[_Item], int] | None = None,
     ) -> Generator[tuple[int, _Value | Exception]]:
-        """Yield the number of each item with its value, or with the exception that it ended in, as they finish.
+        """Yield the number of each item with its value or its exception, in the order in which they finish.
 
-        Dask gets only as many tasks as can run at once, so there may be any number of items. It hands the tasks of a
-        worker that died to another.
+        Dask gets only as many tasks as can run at once, so there may be any number of items. It gives the tasks of a
+        dead worker to another.
 
-        ``label``: name of an item in the log. ``n_begun``: how often work on an item has begun. Dask blames every task
-        that was with a worker that died; an item that has not begun :data:`MAX_DEATHS` times is tried again.
+        ``label``: name of an item in the log; ``n_begun``: how often work on an item has begun. Dask blames every task
+        of a dead worker, so an item that has not begun :data:`MAX_DEATHS` times is tried again.
         """
         from distributed import CancelledError, KilledWorker, as_completed
         from distributed.scheduler import NoWorkerError
@@ -134,8 +134,7 @@ class WorkerPool:
                 del self._labels[future.key], self.begun[number]
                 value: _Value | Exception
                 try:
-                    # Not fetched by as_completed: an error while fetching would be lost there, and it would wait for
-                    # ever.
+                    # as_completed does not fetch values, since it would lose an error and wait for ever.
                     value = future.result()
                 except CancelledError:
                     remedy = "run the same command again to go on"
@@ -159,10 +158,9 @@ class WorkerPool:
     def map(
         self, what: str, function: Callable[[_Item], Any], items: Sequence[_Item], *, failures: bool = False
     ) -> list[Any]:
-        """Return the ``function`` of each item, in their order, and tell the progress.
+        """Return the ``function`` of each item, in their order, and report progress.
 
-        ``what``: for the progress and the log; ``failures``: whether exceptions are returned in the place of values,
-        instead of raised.
+        ``what``: name of the work in progress and log; ``failures``: whether exceptions are returned instead of raised.
         """
         values: dict[int, Any] = {}
         if not items:
@@ -181,17 +179,17 @@ class WorkerPool:
 
 
 def dask_setup(worker: object) -> None:
-    """Leave Ctrl-C to the process that the user started; Dask calls this in each local worker process."""
+    """Ignore Ctrl-C in a local worker process, where Dask calls this; the user's process handles it."""
     del worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 @contextmanager
 def _local_workers(count: int | None) -> Iterator[Client]:
-    """Start worker processes on this machine, one task and one BLAS thread each, gone when the block ends.
+    """Start worker processes on this machine with one task and one BLAS thread each, until the block ends.
 
-    They listen on the loopback address only and speak TLS with certificates made for this run: whoever can talk to a
-    Dask scheduler can run any code, and other users of the machine reach the loopback too.
+    They listen on the loopback address only, and use TLS with certificates of this run. Whoever can connect to a Dask
+    scheduler can run any code, and other users of the machine reach the loopback address too.
     """
     count = available_cores() if count is None else check_count(count, "workers")
     check_memory(_WORKER_BYTES * count, "workers", f"{count:,} processes", "choose fewer; one for each core is best")
@@ -202,9 +200,9 @@ def _local_workers(count: int | None) -> Iterator[Client]:
     settings = {
         "distributed.scheduler.allowed-failures": MAX_DEATHS - 1,
         "distributed.scheduler.no-workers-timeout": NO_WORKERS,
-        # A factorisation may keep a worker from answering for long; it is not dead.
+        # A worker may not answer for long during a factorisation.
         "distributed.scheduler.worker-ttl": None,
-        # Dask's profiler keeps a thousand seconds of what a worker has been at: some 0.15 GB each.
+        # Dask's profiler stores the last thousand seconds of each worker, some 0.15 GB.
         "distributed.worker.profile.enabled": False,
         "distributed.nanny.pre-spawn-environ": _ONE_THREAD,
     }
@@ -220,14 +218,14 @@ def _local_workers(count: int | None) -> Iterator[Client]:
                 protocol="tls://",
                 security=Security.temporary(),
                 dashboard_address=None,  # pyright: ignore[reportArgumentType]
-                # Without a dashboard there still is a small HTTP server, whose fixed port a second run would miss.
+                # There is a small HTTP server even without a dashboard; its default port may be taken by another run.
                 scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-                memory_limit=0,  # a limit of our own would kill what the machine could still bear
+                memory_limit=0,  # a limit would kill workers for which the machine has memory
                 silence_logs=_SILENT,
                 preload=[__name__],
             )
             client = Client(stack.enter_context(cluster), set_as_default=False)
-        except (RuntimeError, OSError, TimeoutError) as error:  # Dask's words for a process that ends as it starts
+        except (RuntimeError, OSError, TimeoutError) as error:  # a process ended as it started
             got = "some that ended as they started"
             raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from error
         yield stack.enter_context(client)
@@ -240,19 +238,19 @@ def _running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
     from distributed.security import Security
 
     name, remedy = f"scheduler {address}", "check the address and that its workers run"
-    parts = re.fullmatch(r"(?:([a-z]+)://)?\[?([^/\s\[\]]+)\]?:(\d{1,5})/?", address, re.ASCII)
-    if parts is None or not 0 < int(parts.group(3)) < 65536:  # Dask would try such a port for ever
+    match = re.fullmatch(r"(?:([a-z]+)://)?\[?([^/\s\[\]]+)\]?:(\d{1,5})/?", address, re.ASCII)
+    if match is None or not 0 < int(match.group(3)) < 65536:  # Dask would retry such a port for ever
         raise refuse(name, "an address such as tcp://host:8786", "another", remedy)
-    secret = parts.group(1) == "tls"
-    if secret and Security().get_connection_args("client").get("ssl_context") is None:
+    is_tls = match.group(1) == "tls"
+    if is_tls and Security().get_connection_args("client").get("ssl_context") is None:
         raise refuse(name, "certificates in Dask's configuration", "none", "see Dask's pages on TLS")
-    # A client that cannot connect logs errors when it is deleted, so it is made only where a scheduler answers.
-    if not _answers(parts.group(2), int(parts.group(3)), timeout, secret):
+    # A client without a connection logs errors when it is deleted, so a scheduler must answer first.
+    if not _answers(match.group(2), int(match.group(3)), timeout, is_tls):
         raise refuse(name, "a running Dask scheduler", "no answer", remedy)
     with _quiet():
         try:
             client = Client(address, timeout=timeout, set_as_default=False)
-        except Exception as error:  # another program may answer, which Dask does not expect
+        except Exception as error:  # another program may have answered
             got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
             raise refuse(name, "a running Dask scheduler", got, remedy) from error
         with client:
@@ -263,21 +261,21 @@ def _running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
             yield client
 
 
-def _answers(host: str, port: int, timeout: float, secret: bool) -> bool:
-    """Whether a scheduler answers: with another program Dask would wait for ever.
+def _answers(host: str, port: int, timeout: float, is_tls: bool) -> bool:
+    """Return whether a scheduler answers; with another program Dask would wait for ever.
 
-    A scheduler speaks first, and begins with the length of its message; with TLS (``secret``) the client speaks first.
+    A scheduler sends first, beginning with the length of its message; with TLS (``is_tls``) the client sends first.
     """
     try:
         with socket.create_connection((host, port), timeout) as connection:
-            return secret or 0 < int.from_bytes(connection.recv(8), "little") < 1 << 24
+            return is_tls or 0 < int.from_bytes(connection.recv(8), "little") < 1 << 24
     except (OSError, UnicodeError):
         return False
 
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Silence Dask's log of lost connections and restarted workers, which the run reports itself."""
+    """Silence Dask's log of lost connections and restarted workers, which the run itself reports."""
     handlers = logging.getLogger("distributed").handlers
     levels = [handler.level for handler in handlers]
     for handler in handlers:

@@ -1,4 +1,4 @@
-"""Finding shapes, true correspondences, landmarks and pairs in a folder."""
+"""Find shapes, true correspondences, landmarks and pairs in a folder."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from kfmaps.io.meshes import READERS
 from kfmaps.io.text import read_text
 
 _SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
-"""Where the field keeps its shapes when they are not in the top folder; the first that has any counts."""
+"""Folders of the shapes in data sets without shapes in the top folder; the first one with shapes counts."""
 _PAIRS_FILE = "test_pairs.txt"
-_LONGEST_KEY = 200  # bytes of a key; file systems take names of 255
+_MAX_KEY = 200  # bytes of a key; file systems take names of 255
 
 
 @dataclass(frozen=True, order=True)
@@ -34,32 +34,32 @@ class Pair:
     def key(self) -> str:
         """Name of the pair's files: ``A-B``, or ``A--B`` where a name itself has a hyphen.
 
-        Of names too long for one file of both, it has how they begin and a digest of the whole.
+        Names that are too long are cut, and a digest of both follows.
         """
         joint = "--" if "-" in self.source + self.target else "-"
         whole = f"{self.source}{joint}{self.target}"
-        if len(os.fsencode(whole)) <= _LONGEST_KEY:
+        if len(os.fsencode(whole)) <= _MAX_KEY:
             return whole
         digest = hashlib.sha256(os.fsencode(f"{self.source}\0{self.target}")).hexdigest()[:16]
-        start = _LONGEST_KEY // 2 - 10
+        start = _MAX_KEY // 2 - 10
         names = (os.fsencode(name)[:start].decode("utf-8", "ignore") for name in (self.source, self.target))
         return f"{joint.join(names)}{joint}{digest}"
 
 
 @dataclass(frozen=True)
 class ShapeFolder:
-    """What a folder holds."""
+    """The content of a folder of shapes."""
 
     folder: Path
     shapes: Mapping[str, Path]  # in natural order: 2 before 10
-    # Vertex lists; line k of one shape's corresponds to line k of another's.
+    # Vertex lists, whose line k is the same point on all shapes.
     truth: Mapping[str, Path] = field(default_factory=dict)
     mirrored: Mapping[str, Path] = field(default_factory=dict)  # the lists with left and right swapped
     # Truth of one pair: line i is the target's vertex for the source's vertex i, counted from 1 (SHREC'19).
     maps: Mapping[Pair, Path] = field(default_factory=dict)
-    # Vertex lists; line k of one shape's corresponds to line k of another's.
+    # Vertex lists as for ``truth``, or landmarks with names.
     landmarks: Mapping[str, Path] = field(default_factory=dict)
-    # Landmarks of a pair alone, of source and target; they go before those of the shapes.
+    # Landmarks of source and target for one pair, instead of those of the shapes.
     pair_landmarks: Mapping[Pair, tuple[Path, Path]] = field(default_factory=dict)
     pairs: Path | None = None  # the folder's own list of pairs
 
@@ -71,7 +71,7 @@ def natural(name: str) -> list[tuple[int, int, str]]:
 
 
 def find_collection(folder: str | Path) -> ShapeFolder:
-    """Look through a folder laid out as the field does.
+    """Return the content of a folder with the usual layout of data sets.
 
     Shapes lie in the folder itself or, when it has none, in ``shapes/``, ``off/``, ``meshes/``, ``ply/`` or ``obj/``.
     Truth lies in ``corres/`` (or ``groundtruth/``) as ``NAME.vts`` and ``NAME.sym.vts``, or per pair as ``A_B.map``;
@@ -86,11 +86,11 @@ def find_collection(folder: str | Path) -> ShapeFolder:
         shapes = shapes or _shapes(folder / name)
     if not shapes:
         places = ", ".join(f"{name}/" for name in _SHAPE_FOLDERS)
-        wanted = f"meshes ({' '.join(READERS)}) in it or in {places}"
-        raise refuse(f"collection {folder}", wanted, "none", "check the path")
-    found = [p for name in ("corres", "groundtruth") for p in _files(folder / name)]
-    lists = {p.name[:-4]: p for p in found if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
-    mirrored = {p.name[:-8]: p for p in found if p.name.endswith(".sym.vts")}
+        expected = f"meshes ({' '.join(READERS)}) in it or in {places}"
+        raise refuse(f"collection {folder}", expected, "none", "check the path")
+    truth_files = [p for name in ("corres", "groundtruth") for p in _files(folder / name)]
+    lists = {p.name[:-4]: p for p in truth_files if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
+    mirrored = {p.name[:-8]: p for p in truth_files if p.name.endswith(".sym.vts")}
     landmarks = [p for p in _files(folder / "landmarks") if p.suffix in (".txt", ".vts") or landmark_suffix(p)]
     pairs = folder / _PAIRS_FILE
     return ShapeFolder(
@@ -98,7 +98,7 @@ def find_collection(folder: str | Path) -> ShapeFolder:
         shapes,
         truth={name: lists[name] for name in shapes if name in lists},
         mirrored={name: mirrored[name] for name in shapes if name in mirrored},
-        maps=_pair_truth([p for p in found if p.suffix == ".map"], shapes),
+        maps=_pair_truth([p for p in truth_files if p.suffix == ".map"], shapes),
         landmarks={name: p for p in landmarks if (name := landmark_stem(p)) in shapes},
         pairs=pairs if pairs.is_file() else None,
     )
@@ -123,7 +123,7 @@ def _shapes(folder: Path) -> dict[str, Path]:
 
 
 def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair, Path]:
-    """``A_B.map`` by pair; the names may hold underscores themselves."""
+    """Return the files ``A_B.map`` by pair; the names may have underscores."""
     maps = {}
     for path in paths:
         parts = path.stem.split("_")
@@ -135,25 +135,25 @@ def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair,
 
 
 def listed_pairs(collection: ShapeFolder, file: str | Path | None = None) -> list[Pair]:
-    """Return the pairs that a list has, each once and in order.
+    """Return the pairs of a list, each once and in order.
 
-    ``file``: two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension. Without
-    it the folder's own list, or the pairs whose truth the folder has.
+    ``file``: two names a line, "source target", with or without the mesh's extension; ``#`` starts a comment. By
+    default the folder's own list, else the pairs for which the folder has a truth.
     """
-    listed = file or collection.pairs
-    if listed is None and not collection.maps:
+    pairs_file = file or collection.pairs
+    if pairs_file is None and not collection.maps:
         got = f"no {_PAIRS_FILE} in {collection.folder}"
         raise refuse("pairs", "a list of pairs", got, "give --pairs FILE, or let --graph near choose them")
-    return list(dict.fromkeys(collection.maps if listed is None else _read_pairs(listed, collection)))
+    return list(dict.fromkeys(collection.maps if pairs_file is None else _read_pairs(pairs_file, collection)))
 
 
 def known_shape(name: str, collection: ShapeFolder, where: str) -> str:
-    """Return the shape's name, given with or without extension; ``where``: how messages call it."""
-    for known in (name, Path(name).stem):
-        if known in collection.shapes:
-            return known
-    shown = ", ".join(list(collection.shapes)[:5])
-    raise refuse(where, f"a shape of {collection.folder} ({shown}, ...)", repr(name), "check the spelling")
+    """Return the name of a shape, which may have an extension; ``where``: its place in messages."""
+    for candidate in (name, Path(name).stem):
+        if candidate in collection.shapes:
+            return candidate
+    examples = ", ".join(list(collection.shapes)[:5])
+    raise refuse(where, f"a shape of {collection.folder} ({examples}, ...)", repr(name), "check the spelling")
 
 
 def _read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:

@@ -38,7 +38,7 @@ from kfmaps.viz.result_pages import match_page
 
 PAGE = "summary.html"
 _PAGES = "pages"
-_MAX_NAMED = 60  # most shapes whose names are written into the chart of components
+_MAX_NAMED = 60  # number of shapes up to which their names are written into the chart of components
 _TEMPLATES = environment("kfmaps.batch")
 _TEMPLATES.filters |= {"percent": percent, "in_words": format_seconds}
 
@@ -58,7 +58,7 @@ _COLUMNS: tuple[_Column, ...] = (
     ("replaced by", lambda r: r.changed or None, str),
     ("time (s)", lambda r: r.seconds.get("total"), "{:.1f}".format),
 )
-"""Columns of the table of pairs: title, value to sort by, and text. A column without values is left out."""
+"""Columns of the table of pairs: title, sorting value, and text. A column without values is left out."""
 
 
 def write_page(
@@ -66,12 +66,12 @@ def write_page(
 ) -> Path:
     """Write the summary of a run, and the pages of the pairs that it shows as pictures.
 
-    ``results``: of all pairs in the output folder; ``name``: title, any text; ``worst``: how many of the worst pairs
-    are shown as pictures; ``consistent``: what came of making the maps agree.
+    ``results``: of all pairs in the output folder; ``name``: title, any text; ``worst``: number of the worst pairs
+    with a picture; ``consistent``: where maps were made consistent.
     """
     tasks = {task.pair: task for task in plan.tasks}
-    ordered = worst_first(results)
-    shown = ordered[:worst] + [r for r in results if r.changed][: 2 * worst]
+    ranked = worst_first(results)
+    shown = ranked[:worst] + [r for r in results if r.changed][: 2 * worst]
     pages = _write_pages(plan.folder, tasks, shown)
     agreement: dict[str, Any] = {}
     if consistent is not None:
@@ -82,7 +82,7 @@ def write_page(
         name,
         results,
         read_run_spec(plan.folder),
-        _pictures(tasks, ordered, worst, _error_limit(results)),
+        _pictures(tasks, ranked, worst, _error_limit(results)),
         len({r.pair for r in results} | tasks.keys()),
         pages,
         agreement,
@@ -102,10 +102,10 @@ def summary_page(
 ) -> str:
     """Return the summary page.
 
-    ``name``: title, any text; ``settings``: as JSON holds them; ``pictures``: addresses by caption, of the worst
-    pairs; ``pairs``: how many pairs were asked for; ``pages``: those of single maps, relative to the summary;
-    ``agreement``: what making the maps agree adds: pictures of maps that have ``changed`` by caption, a line for each
-    pair that is ``doubted``, ``specimens``, charts and pictures of the shapes, and ``shapes``, their table.
+    ``name``: title, any text; ``settings``: plain values for JSON; ``pictures``: addresses by caption, of the worst
+    pairs; ``pairs``: number of planned pairs; ``pages``: addresses of single maps, relative to the summary;
+    ``agreement``: of consistent maps: pictures of ``changed`` maps by caption, a line for each ``doubted`` pair, charts
+    and pictures of ``specimens``, and the table of ``shapes``.
     """
     numbers, ordered = summarize(results), worst_first(results)
     folder = files("kfmaps.batch").joinpath("templates")
@@ -149,40 +149,42 @@ def _curve(results: Sequence[Result]) -> dict[str, str] | None:
 
 
 def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
-    """Return the mean error curve of the pairs whose truth is known, with the band of the middle 80 % of them."""
+    """Return the mean error curve of the pairs with a known truth, with the band of the middle 80 % of them."""
     curves = [r.curve for r in results if r.status == "done" and r.curve]
     return mean_curve(label, np.array(CURVE_ERRORS), np.array(curves)) if curves else None
 
 
 def _picture(figure: Figure, kind: str) -> str:
-    """Return the figure as a data address: "svg+xml" for charts, whose text can be searched, or "png"."""
+    """Return a figure as a data address; ``kind``: "svg+xml" for charts, whose text can be searched, or "png"."""
     buffer = io.BytesIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):
         save_figure(make_transparent(figure), buffer, kind.removesuffix("+xml"))
     return data_address(f"image/{kind}", buffer.getvalue())
 
 
-def _specimens(plan: Plan, known: ShapeStatistics) -> dict[str, Any]:
+def _specimens(plan: Plan, statistics: ShapeStatistics) -> dict[str, Any]:
     """Return a chart and a picture of each connected component, and the table of shapes; empty without any."""
-    if not known.parts:
+    if not statistics.parts:
         return {}
-    rows = [dict(zip(known.table[0], row, strict=True)) for row in known.table[1:]]
+    rows = [dict(zip(statistics.table[0], row, strict=True)) for row in statistics.table[1:]]
     meshes = {t.name: t.path for task in plan.tasks for t in (task.source, task.target)}
     sections = []
-    for part in known.parts:
-        own, middle = set(part["names"].tolist()), str(part["middle"])
-        chart = _chart([row for row in rows if row["shape"] in own], part)
-        which = f": {len(own)} like {middle}" if len(known.parts) > 1 else ""
-        varied = _variation(meshes[middle], part)
-        sections.append({"chart": _picture(chart, "svg+xml"), "which": which, "variation": varied, "middle": middle})
+    for part in statistics.parts:
+        members, middle = set(part["names"].tolist()), str(part["middle"])
+        chart = _chart([row for row in rows if row["shape"] in members], part)
+        suffix = f": {len(members)} like {middle}" if len(statistics.parts) > 1 else ""
+        variation = _variation(meshes[middle], part)
+        sections.append(
+            {"chart": _picture(chart, "svg+xml"), "which": suffix, "variation": variation, "middle": middle}
+        )
     titles = [t for t in rows[0] if any(row[t] for row in rows) and (t != "part" or len({r[t] for r in rows}) > 1)]
     return {"specimens": sections, "shapes": {"titles": titles, "rows": rows}}
 
 
-def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> Figure:
+def _chart(rows: list[dict[str, str]], component: dict[str, np.ndarray]) -> Figure:
     figure = Figure(figsize=(9.6, 4.4), facecolor="white", layout="constrained")
     for ax, kind in zip(figure.subplots(1, len(DIFFERENCE_KINDS)), DIFFERENCE_KINDS, strict=True):
-        explained = known[f"explained_{kind}"]
+        explained = component[f"explained_{kind}"]
         if len(explained) < 2 or not explained.any():
             ax.set_axis_off()
             continue
@@ -216,8 +218,8 @@ def _quiet_mesh(path: Path) -> Mesh:
 def _error_limit(results: Sequence[Result]) -> float | None:
     """Return the error at which the colours of all pictures end: from thrice the errors of maps that are not bad."""
     errors = np.array([r.error_mean for r in results if r.error_mean is not None])
-    right = errors[errors <= BAD] if (errors <= BAD).any() else errors
-    return error_limit(3 * right) if len(right) else None
+    good_errors = errors[errors <= BAD] if (errors <= BAD).any() else errors
+    return error_limit(3 * good_errors) if len(good_errors) else None
 
 
 def _pictures(
@@ -227,15 +229,15 @@ def _pictures(
     limit: float | None,
     before: Mapping[Pair, Result] | None = None,
 ) -> dict[str, str]:
-    """Return pictures of at most ``count`` pairs by caption, of the old map too where ``before`` has its result.
+    """Return pictures of at most ``count`` pairs by caption, also of the old map where ``before`` has its result.
 
-    A pair that cannot be drawn, since its map or meshes are gone or do not fit any more, is left out.
+    A pair is left out where its map or meshes are missing or do not fit any more.
     """
     pictures: dict[str, str] = {}
-    drawn = 0
+    n_drawn = 0
     for result in results:
         task = tasks.get(result.pair)
-        if task is None or drawn == count:
+        if task is None or n_drawn == count:
             continue
         try:
             caption, new = describe_result(result), {}
@@ -247,12 +249,12 @@ def _pictures(
         except (InvalidInput, OSError):
             continue
         pictures |= new
-        drawn += 1
+        n_drawn += 1
     return pictures
 
 
 def _draw(task: PairTask, limit: float | None, path: Path) -> str:
-    """A map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
+    """Return the picture of a map, with errors up to ``limit`` where the truth is known."""
     source, target, truth = _read_pair(task)
     with one_blas_thread():
         figure = render(load_map(path), source, target, truth=truth, limit=limit, small=True)
@@ -260,15 +262,15 @@ def _draw(task: PairTask, limit: float | None, path: Path) -> str:
 
 
 def _read_pair(task: PairTask) -> tuple[Mesh, Mesh, Truth | None]:
-    """Both meshes of a pair and what is known of the truth."""
+    """Return both meshes of a pair, and the truth where it is known."""
     source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
     return source, target, true_vertices(task, len(source.vertices), len(target.vertices))
 
 
 def _write_pages(folder: Path, tasks: Mapping[Pair, PairTask], results: Iterable[Result]) -> dict[Pair, str]:
-    """Write the pages of ``results`` that are not there or older than their map; return addresses of all there are.
+    """Write the pages of ``results`` that are missing or older than their map; return the addresses of all pages.
 
-    A map that cannot be shown has none.
+    A map that cannot be shown has no page.
     """
     (folder / _PAGES).mkdir(exist_ok=True)
     for result in results:

@@ -1,4 +1,4 @@
-"""From a collection, its pairs and a specification to tasks: what there is to do, and what is done already."""
+"""Plan a run: the tasks of a collection's pairs, and the results that exist already."""
 
 from __future__ import annotations
 
@@ -27,58 +27,58 @@ GRAPHS = "near, star, star:SHAPE, all or both"
 
 @dataclass(frozen=True)
 class Plan:
-    """What a run does."""
+    """The work of a run."""
 
     folder: Path  # the output folder
     spec: RunSpec
-    tasks: tuple[PairTask, ...]  # every pair asked for, in order
+    tasks: tuple[PairTask, ...]  # of all pairs, in order
     todo: tuple[PairTask, ...]  # those without a valid result
     results: tuple[Result, ...]  # of the others
-    changed: int  # how many of ``todo`` have a result that no longer counts, because their files have changed
+    changed: int  # number of ``todo`` whose result is invalid, because files have changed
 
 
 def make_plan(
     collection: ShapeFolder, pairs: Sequence[Pair], spec: RunSpec, output: str | Path, *, retry_failed: bool = False
 ) -> Plan:
-    """Return what a run has to do. The output folder is made, and what is done already is read from it.
+    """Return the plan of a run; the output folder is made, and earlier results are read from it.
 
-    ``retry_failed``: whether pairs that failed are done again.
+    ``retry_failed``: whether failed pairs are done again.
     """
     if spec.identity and (collection.truth or collection.maps):
         remedy = "leave --identity out, or move the files away"
         raise refuse("--identity", "a collection without files of correspondences", "one with such files", remedy)
-    make = _Tasks(collection, spec, output)
-    _make_folder(make.folder / FOLDER)
-    tasks = tuple(make.pair(pair) for pair in pairs)
+    factory = _Tasks(collection, spec, output)
+    _make_folder(factory.folder / FOLDER)
+    tasks = tuple(factory.pair(pair) for pair in pairs)
     todo, results, changed = [], [], 0
     keys: dict[str, Pair] = {}
     for task in tasks:
-        other = keys.setdefault(task.key.casefold(), task.pair)  # some file systems do not tell a from A
-        if other != task.pair:
+        same_key = keys.setdefault(task.key.casefold(), task.pair)  # some file systems do not tell a from A
+        if same_key != task.pair:
             raise refuse(
-                "pairs", "names that tell pairs apart", f"{other.key} for two of them", "rename one of the shapes"
+                "pairs", "names that tell pairs apart", f"{same_key.key} for two of them", "rename one of the shapes"
             )
-        there = read_result(result_path(make.folder, task.key))
-        if there is not None and there.pair != task.pair:
-            got = f"{there.source} and {there.target}"
+        result = read_result(result_path(factory.folder, task.key))
+        if result is not None and result.pair != task.pair:
+            got = f"{result.source} and {result.target}"
             raise refuse(f"result {task.key}", f"the result of {task.pair}", got, "rename one of the shapes")
-        fits = there is not None and there.is_of(task.settings, task.inputs)
-        if there is None or not fits or (retry_failed and there.status == "failed"):
-            changed += there is not None and not fits
+        fits = result is not None and result.is_of(task.settings, task.inputs)
+        if result is None or not fits or (retry_failed and result.status == "failed"):
+            changed += result is not None and not fits
             todo.append(task)
         else:
-            results.append(there)
-    return Plan(make.folder, spec, tasks, tuple(todo), tuple(results), changed)
+            results.append(result)
+    return Plan(factory.folder, spec, tasks, tuple(todo), tuple(results), changed)
 
 
 def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind: str, pool: WorkerPool) -> list[Pair]:
     """Choose pairs over a graph of the whole collection.
 
-    ``output``: output folder of the run. ``kind``: "near": each shape with those that are most like it, about three
-    pairs a shape, on cycles (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the one in the
-    middle with all others; "star:SHAPE": this one. "all": every pair, one way; "both": both ways. Pairs that depend on
-    the shapes are stored in the output folder, so that they stay the same. A shape that cannot be prepared gets one
-    pair, with the medoid, and that pair fails. ``pool``: prepares the shapes.
+    ``output``: output folder of the run. ``kind``: "near": each shape with the most similar ones, about three pairs a
+    shape, on cycles (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the medoid with all others;
+    "star:SHAPE": this shape with all others. "all": every pair, one way; "both": both ways. Pairs that depend on the
+    shapes are stored in the output folder, so that they stay the same. A shape that cannot be prepared gets one pair,
+    with the medoid, and that pair fails. ``pool``: prepares the shapes.
     """
     names = list(collection.shapes)
     if kind not in ("near", "star", "all", "both") and not kind.startswith("star:"):
@@ -90,24 +90,24 @@ def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind
         return [Pair(centre, name) for name in names if name != centre]
     if kind in ("all", "both"):
         return [Pair(a, b) for a, b in (combinations if kind == "all" else permutations)(names, 2)]
-    make = _Tasks(collection, spec, output)
-    tasks = [make.shape(name) for name in names]
+    factory = _Tasks(collection, spec, output)
+    tasks = [factory.shape(name) for name in names]
     key = digest_of([kind, sorted((task.name, task.content) for task in tasks)], 32)
-    path = make.folder / _GRAPH
-    kept = _read_graph(path, key)
-    if kept is not None:
-        return kept
+    path = factory.folder / _GRAPH
+    stored = _read_graph(path, key)
+    if stored is not None:
+        return stored
     prepared = pool.map("shapes", prepare_shape, tasks)
-    good = [task for task, done in zip(tasks, prepared, strict=True) if not done.reason]
-    bad = [done for done in prepared if done.reason]
-    if len(good) < 2:
-        got = f"{len(good)}: {bad[0].reason}"
+    usable = [task for task, done in zip(tasks, prepared, strict=True) if not done.reason]
+    failures = [done for done in prepared if done.reason]
+    if len(usable) < 2:
+        got = f"{len(usable)}: {failures[0].reason}"
         raise refuse("collection", "two shapes that can be prepared", got, "check the meshes")
-    signatures = np.stack(pool.map("likeness of shapes", _signature, good))
-    chosen = signature_graph(kind, signatures)
-    middle = medoid(signature_distances(signatures)) if bad else 0
-    pairs = [Pair(good[a].name, good[b].name) for a, b in chosen]
-    pairs += [Pair(good[middle].name, done.name) for done in bad]
+    signatures = np.stack(pool.map("likeness of shapes", _signature, usable))
+    edges = signature_graph(kind, signatures)
+    centre = medoid(signature_distances(signatures)) if failures else 0
+    pairs = [Pair(usable[a].name, usable[b].name) for a, b in edges]
+    pairs += [Pair(usable[centre].name, done.name) for done in failures]
     content = {"kind": kind, "shapes": key, "pairs": [[p.source, p.target] for p in pairs]}
     write_text(path, json.dumps(content, indent=1) + "\n", force=True)
     return pairs
@@ -118,7 +118,7 @@ def _signature(task: ShapeTask) -> np.ndarray:
 
 
 def _read_graph(path: Path, key: str) -> list[Pair] | None:
-    """Return the stored pairs, if they are of these shapes."""
+    """Return the stored pairs; ``None`` if they are not those of these shapes."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         return [Pair(str(a), str(b)) for a, b in content["pairs"]] if content["shapes"] == key else None
@@ -127,7 +127,7 @@ def _read_graph(path: Path, key: str) -> list[Pair] | None:
 
 
 class _Tasks:
-    """The tasks of a run in an output folder, which is made and claimed for its specification."""
+    """The maker of tasks in an output folder, which is created and claimed for the specification."""
 
     def __init__(self, collection: ShapeFolder, spec: RunSpec, output: str | Path) -> None:
         self.collection, self.spec, self.folder = collection, spec, _make_folder(output)
@@ -144,20 +144,20 @@ class _Tasks:
     def pair(self, pair: Pair) -> PairTask:
         collection, spec = self.collection, self.spec
         source, target = self.shape(pair.source), self.shape(pair.target)
-        own = None if spec.identity else collection.maps.get(pair)
-        truth = _both(collection.truth, pair) if own is None and not spec.identity else None
+        pair_truth = None if spec.identity else collection.maps.get(pair)
+        truth = _both(collection.truth, pair) if pair_truth is None and not spec.identity else None
         mirrored = collection.mirrored.get(pair.target) if truth else None
         use_files = spec.landmark_files and not spec.landmark_lines
         landmarks = collection.pair_landmarks.get(pair) or _both(collection.landmarks, pair)
         landmarks = landmarks if use_files else None
-        files = [own, *(truth or ()), mirrored, *(landmarks or ())]
+        files = [pair_truth, *(truth or ()), mirrored, *(landmarks or ())]
         inputs = digest_of([source.content, target.content, *(self.digest(f) if f else None for f in files)])
-        mirrored, own = (path and path.resolve() for path in (mirrored, own))
-        return PairTask(pair, self.folder, source, target, spec, inputs, truth, mirrored, own, landmarks)
+        mirrored, pair_truth = (path and path.resolve() for path in (mirrored, pair_truth))
+        return PairTask(pair, self.folder, source, target, spec, inputs, truth, mirrored, pair_truth, landmarks)
 
 
 def _digest(path: Path) -> str:
-    """Return the digest of a file, or of the reason why it cannot be read, which its pairs report."""
+    """Return the digest of a file, or of the error of reading it, which its pairs will report."""
     try:
         return file_digest(path)
     except (OSError, InvalidInput) as error:
@@ -174,7 +174,7 @@ def _make_folder(path: str | Path) -> Path:
 
 
 def _both(files: Mapping[str, Path], pair: Pair) -> tuple[Path, Path] | None:
-    """The files of both shapes, when there are both."""
+    """Return the files of both shapes, where both exist."""
     if pair.source in files and pair.target in files:
         return files[pair.source].resolve(), files[pair.target].resolve()
     return None

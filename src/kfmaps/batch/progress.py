@@ -1,4 +1,4 @@
-"""The state of a run: how long the rest will take, and reports on the terminal and in the log."""
+"""The progress of a run: estimates of the remaining time, and reports on the terminal and in logs."""
 
 from __future__ import annotations
 
@@ -19,17 +19,14 @@ from kfmaps.cli.words import format_seconds, plural
 
 _LOG, _EVENTS = "run.log", "run.jsonl"
 _FIXED_VERTICES = 8000.0
-"""Number of vertices that take as long as the work that depends on no size. From docs/performance.md: 4.1 s of
-5,000 vertices, 8.7 of 20,000, 32 of 80,000."""
-_LINE_SECONDS = 30.0  # seconds between lines where there is no terminal
+"""Number of vertices that take as long as the work that does not depend on the size. From docs/performance.md: 4.1 s
+for 5,000 vertices, 8.7 for 20,000, 32 for 80,000."""
+_LINE_SECONDS = 30.0  # seconds between lines without a terminal
 
 
 @dataclass(frozen=True)
 class RunStatus:
-    """State of a run: shapes prepared, pairs done and failed, and the ``remaining`` seconds.
-
-    ``remaining`` is ``None`` while nothing has been measured; it rests on ``measured`` pairs.
-    """
+    """The state of a run."""
 
     shapes_done: int
     shapes: int
@@ -37,8 +34,8 @@ class RunStatus:
     failed: int
     pairs: int
     workers: int
-    remaining: float | None
-    measured: int
+    remaining: float | None  # seconds; None while no pair has been measured
+    measured: int  # number of pairs that the estimate uses
 
     def __str__(self) -> str:
         failed = f" ({self.failed} failed)" if self.failed else ""
@@ -46,70 +43,70 @@ class RunStatus:
         return f"{shapes}pairs {self.pairs_done}/{self.pairs}{failed}, {self.time_left()}"
 
     def time_left(self) -> str:
-        """Return the remaining time, and how many pairs the estimate rests on."""
+        """Return the remaining time in words, with the number of pairs that the estimate uses."""
         if self.pairs_done == self.pairs:
             return "finished"
         if self.remaining is None:
             return "time left: not known yet"
-        rests_on = f"{plural(self.measured, 'pair')} and their sizes, {plural(self.workers, 'worker')}"
-        return f"about {format_seconds(self.remaining)} left (from {rests_on})"
+        basis = f"{plural(self.measured, 'pair')} and their sizes, {plural(self.workers, 'worker')}"
+        return f"about {format_seconds(self.remaining)} left (from {basis})"
 
 
 Callback = Callable[[RunStatus, Result | None], None]
-"""Called with the state of the run and the newest result, if there is one."""
+"""Called with the state of the run and the newest result, if any."""
 
 
 Log = Callable[..., None]
-"""Called with the name of an event, the event in words, and its values by name."""
+"""Called with the name of an event, a text, and values by name."""
 
 
 @dataclass
 class WorkLeft:
-    """The pairs that are left, and how long they take.
+    """The remaining pairs, and an estimate of their time.
 
-    The time of a pair is taken to grow with its size from a fixed part on, and each worker to take the next pair that
-    waits. A pair under way is taken to last for at least half its time longer: it may be slower than the finished ones.
+    A pair takes a fixed time and one proportional to its size, and each worker takes the next waiting pair. A running
+    pair takes at least half its estimate longer, since it may be slower than the finished ones.
     """
 
-    sizes: dict[int, float]  # mean number of vertices of each pair that is left, in the order in which they are begun
+    sizes: dict[int, float]  # mean number of vertices of each remaining pair, in the order of their start
     before: list[tuple[float, float]] = field(default_factory=list)  # (size, seconds) of earlier runs
     finished: list[tuple[float, float]] = field(default_factory=list)  # the same of this run
 
     @property
     def measured(self) -> list[tuple[float, float]]:
-        """The pairs that the estimate rests on."""
+        """The pairs that the estimate uses."""
         return self.finished or self.before
 
     def end(self, number: int, seconds: float | None = None) -> None:
-        """Record that a pair has ended, after ``seconds`` where they are known."""
+        """Record the end of a pair, with its ``seconds`` where they are known."""
         size = self.sizes.pop(number)
         if seconds is not None:
             self.finished.append((size, seconds))
 
-    def remaining(self, begun: Mapping[int, float], workers: int) -> float | None:
-        """Return the seconds that the rest takes; ``None`` where nothing has been measured.
+    def remaining(self, elapsed: Mapping[int, float], workers: int) -> float | None:
+        """Return the remaining seconds; ``None`` where nothing has been measured.
 
-        ``begun``: seconds since each pair began that is under way; ``workers``: how many go on at once.
+        ``elapsed``: seconds since the start of each running pair; ``workers``: how many run at once.
         """
         if not self.sizes:
             return 0.0
         if not self.measured:
             return None
         pace = sum(seconds for _, seconds in self.measured) / sum(size + _FIXED_VERTICES for size, _ in self.measured)
-        lasts = {number: pace * (size + _FIXED_VERTICES) for number, size in self.sizes.items()}
-        free = [max(lasts[number] - seconds, lasts[number] / 2) for number, seconds in begun.items()]
-        free += [0.0] * (workers - len(free))
-        heapq.heapify(free)
-        for number, seconds in lasts.items():
-            if number not in begun:
-                heapq.heapreplace(free, free[0] + seconds)
-        return max(free)
+        durations = {number: pace * (size + _FIXED_VERTICES) for number, size in self.sizes.items()}
+        free_at = [max(durations[number] - seconds, durations[number] / 2) for number, seconds in elapsed.items()]
+        free_at += [0.0] * (workers - len(free_at))
+        heapq.heapify(free_at)
+        for number, seconds in durations.items():
+            if number not in elapsed:
+                heapq.heapreplace(free_at, free_at[0] + seconds)
+        return max(free_at)
 
 
 def log_to(folder: Path) -> Log:
     """Return a function that appends events with the time to both logs of an output folder.
 
-    ``run.log`` has a line of words for each event, ``run.jsonl`` a JSON object that has its values too.
+    ``run.log`` has a line of text for each event, ``run.jsonl`` a JSON object that also has its values.
     """
 
     def log(event: str, text: str, **values: object) -> None:
@@ -123,10 +120,9 @@ def log_to(folder: Path) -> Log:
 
 
 class RunReport:
-    """Reports of a run: bars on a terminal, a line now and then elsewhere, nothing where ``quiet``.
+    """A context that reports a run: by bars on a terminal, by lines elsewhere, not at all where ``quiet``.
 
-    A context: while it lasts, :meth:`status` is a :data:`Callback` and :meth:`stage` a
-    :data:`~kfmaps._progress.CountProgress`.
+    :meth:`status` is a :data:`Callback`, :meth:`stage` a :data:`~kfmaps._progress.CountProgress`.
     """
 
     def __init__(self, quiet: bool) -> None:
@@ -154,7 +150,7 @@ class RunReport:
 
     def stage(self, what: str, done: int, of: int) -> None:
         """Show how much of a stage is done."""
-        self._tell(what, done, of, "", f"{what} {done}/{of}")
+        self._show(what, done, of, "", f"{what} {done}/{of}")
 
     def status(self, status: RunStatus, result: Result | None) -> None:
         """Show the state of the run, and the reason where the newest ``result`` is a failure."""
@@ -163,10 +159,10 @@ class RunReport:
         failed = f"{status.failed} failed, " if status.failed else ""
         line = f"{format_seconds(time.monotonic() - self._begun)}: {status}"
         if self._draws:
-            self._tell("shapes", status.shapes_done, status.shapes, "", "")
-        self._tell("pairs", status.pairs_done, status.pairs, failed + status.time_left(), line)
+            self._show("shapes", status.shapes_done, status.shapes, "", "")
+        self._show("pairs", status.pairs_done, status.pairs, failed + status.time_left(), line)
 
-    def _tell(self, name: str, done: int, of: int, note: str, line: str) -> None:
+    def _show(self, name: str, done: int, of: int, note: str, line: str) -> None:
         now = time.monotonic()
         if self._draws:
             if name not in self._tasks:

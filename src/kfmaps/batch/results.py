@@ -1,4 +1,4 @@
-"""Results of pairs: a small file each, from which all tables and the numbers of the summary are made."""
+"""Results of pairs: a small file for each, and the tables and numbers made from them."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class Result:
     target: str
     status: str  # "done" or "failed"
     settings: str  # digest of the specification
-    inputs: str  # digest of the files it was made from; a pair whose files have changed is done again
-    reason: str = ""  # why it failed
-    attempts: int = 1  # how often the work was begun, by this run or an earlier one that was cut short
+    inputs: str  # digest of the input files; a pair with changed files is done again
+    reason: str = ""  # of a failure
+    attempts: int = 1  # number of starts of the work, also in earlier, interrupted runs
     worker: str = ""  # host and process
     finished: str = ""  # when, in UTC
     vertices_s: int | None = None
@@ -41,16 +41,16 @@ class Result:
     error_median: float | None = None
     error_max: float | None = None
     auc: float | None = None
-    mirrored_mean: float | None = None  # against the truth with left and right swapped: small where the map is mirrored
-    coverage: float | None = None  # part of the source's area that the map reaches
+    mirrored_mean: float | None = None  # against the truth with left and right swapped
+    coverage: float | None = None  # share of the source's area that the map reaches
     confidence: float | None = None  # of the search without landmarks
     local_confidence: float | None = None  # mean over the target's vertices, see kfmaps.fmap.confidence
     verdict: str = ""
-    orientation: str = ""  # whether it is a map to the target or to its mirror image
-    agreement: float | None = None  # probability that the map is right beside all others, where they were made to agree
-    common_s: float | None = None  # part of the source's area that both have, where one is a part of the other
-    common_t: float | None = None
-    changed: str = ""  # what replaces a map that others contradict: "alternative 1", "composition through A, B"
+    orientation: str = ""  # "preserving", or "reversing" for a map to the target's mirror image
+    agreement: float | None = None  # probability of the map given all others, where maps were made consistent
+    common_s: float | None = None  # share of the source's area that both have, where one is a part of the other
+    common_t: float | None = None  # the same for the target
+    changed: str = ""  # replacement of a map that others contradict: "alternative 1", "composition through A, B"
     why: str = ""  # reason of the replacement
     error_before: float | None = None  # mean error of the map that was replaced
     solver: str = ""
@@ -62,16 +62,16 @@ class Result:
 
     @property
     def pair(self) -> Pair:
-        """The pair that it is of."""
+        """The pair of the result."""
         return Pair(self.source, self.target)
 
     def is_of(self, settings: str, inputs: str) -> bool:
-        """Return whether it was made with these settings from these files."""
+        """Return whether the digests of settings and inputs are these."""
         return (self.settings, self.inputs) == (settings, inputs)
 
 
 def describe_result(result: Result) -> str:
-    """Return a pair in one line: its error and verdict, or why it failed."""
+    """Return a result in one line: error and verdict, or the reason of the failure."""
     if result.status == "failed":
         return f"failed: {result.pair}: {result.reason}"
     parts = [] if result.error_mean is None else [f"mean error {percent(result.error_mean)} {UNIT}"]
@@ -80,11 +80,11 @@ def describe_result(result: Result) -> str:
 
 
 CURVE_ERRORS = tuple(i / 400 for i in range(101))
-"""Errors at which curves are kept: 0 to 0.25 in steps of 0.0025."""
+"""Errors of the stored curves: 0 to 0.25 in steps of 0.0025."""
 
 
 def result_path(folder: Path, key: str) -> Path:
-    """Return where the result of the pair with this key lies."""
+    """Return the file of the result of the pair with this key."""
     return folder / FOLDER / f"{key}.json"
 
 
@@ -94,22 +94,22 @@ def write_result(path: Path, result: Result) -> None:
 
 
 def read_result(path: Path) -> Result | None:
-    """Return the result in a file; ``None`` when there is none, or the file is not one."""
+    """Return the result in a file; ``None`` when there is no such file, or it is no result."""
     try:
         values = json.loads(path.read_text(encoding="utf-8"))
-        known = {f.name for f in fields(Result)}
-        values = {k: tuple(v) if isinstance(v, list) else v for k, v in values.items() if k in known}
+        names = {f.name for f in fields(Result)}
+        values = {k: tuple(v) if isinstance(v, list) else v for k, v in values.items() if k in names}
         return Result(**values)
     except (OSError, ValueError, TypeError, AttributeError, RecursionError):
         return None
 
 
 def all_results(folder: Path, settings: str) -> list[Result]:
-    """Return every result in an output folder that was made with the settings of this digest, by source and target."""
-    # A worker that is killed just before it renames a result leaves it under a name that begins with a dot.
+    """Return the results in an output folder that have this digest of the settings, by source and target."""
+    # A worker that is killed before it renames a result leaves a file whose name begins with a dot.
     paths = (path for path in sorted((folder / FOLDER).glob("*.json")) if not path.name.startswith("."))
-    found = map(read_result, paths)
-    return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: r.pair)
+    results = map(read_result, paths)
+    return sorted((r for r in results if r is not None and r.settings == settings), key=lambda r: r.pair)
 
 
 def write_rows(path: Path, rows: Iterable[Iterable[object]]) -> None:
@@ -131,28 +131,26 @@ def write_csv(path: Path, results: Iterable[Result]) -> None:
 
 
 def summarize(results: Sequence[Result]) -> JsonObject:
-    """Return the numbers of a run from its results; errors in units of √area, ``None`` where no truth is known."""
+    """Return the numbers of a run; errors are in units of √area, ``None`` without a known truth."""
     done = [r for r in results if r.status == "done"]
     errors = np.array([r.error_mean for r in done if r.error_mean is not None])
     seconds = np.array([r.seconds["total"] for r in done if "total" in r.seconds])
     mirrored = [(r.error_mean or 0.0, r.mirrored_mean) for r in done if r.mirrored_mean is not None]
 
-    def known(values: np.ndarray, of: Callable[[np.ndarray], Any]) -> float | None:
+    def aggregate(values: np.ndarray, of: Callable[[np.ndarray], Any]) -> float | None:
         return float(of(values)) if len(values) else None
 
     return {
         "done": len(done),
         "failed": len(results) - len(done),
         "evaluated": len(errors),  # pairs whose truth is known
-        "error_mean": known(errors, np.mean),  # of each pair's mean error
-        "error_median": known(errors, np.median),
-        "error_worst": known(errors, np.max),
+        "error_mean": aggregate(errors, np.mean),  # of each pair's mean error
+        "error_median": aggregate(errors, np.median),
+        "error_worst": aggregate(errors, np.max),
         "bad": int((errors > BAD).sum()),
-        "flipped": sum(
-            swapped < error for error, swapped in mirrored
-        ),  # nearer to the mirrored truth than to the truth
-        "seconds_mean": known(seconds, np.mean),  # of the pairs' matching, without the shapes' preparation
-        "seconds_total": known(seconds, np.sum),
+        "flipped": sum(swapped < error for error, swapped in mirrored),  # closer to the mirrored truth
+        "seconds_mean": aggregate(seconds, np.mean),  # of the pairs' matching, without the shapes' preparation
+        "seconds_total": aggregate(seconds, np.sum),
         "verdicts": dict(sorted(Counter(r.verdict for r in done).items())),
         "mirrored": len(mirrored),  # pairs whose mirrored truth is known
         "agreed": sum(r.agreement is not None for r in done),  # compared with the others of the collection
@@ -162,9 +160,9 @@ def summarize(results: Sequence[Result]) -> JsonObject:
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:
-    """Return the results that are done, the largest mean error first; where no truth is known, the least sure first.
+    """Return the finished results, the largest mean error first; without a known truth the least confident first.
 
-    Without a search there is no confidence, and the mean local fit decides.
+    Single fits have no confidence, and their local confidence counts.
     """
     done = [r for r in results if r.status == "done"]
 

@@ -1,4 +1,4 @@
-"""Run a plan: prepare its shapes, match its pairs, and write tables and a summary."""
+"""Run a plan: prepare the shapes, match the pairs, and write tables and a summary."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ from kfmaps.batch.work import (
 from kfmaps.io import remove_unfinished
 
 _A_DAY = 86400.0
-_BYTES = 40.0  # of a mesh file per vertex, about
+_BYTES = 40.0  # about the size of a mesh file per vertex
 _LOGGED = ("source", "target", "status", "reason", "verdict", "confidence", "error_mean", "attempts", "worker")
-"""Fields of a result that the log has."""
+"""Fields of a result that are written to the log."""
 TABLE = "results.csv"
 
 
@@ -45,10 +45,10 @@ TABLE = "results.csv"
 class BatchResult:
     """The result of a run."""
 
-    results: tuple[Result, ...]  # of every pair that was asked for and has one, by source and target
-    interrupted: bool  # whether the user or a signal stopped it; the same call goes on
+    results: tuple[Result, ...]  # of all planned pairs that have one, by source and target
+    interrupted: bool  # whether the user or a signal stopped the run; the same call goes on
     files: tuple[Path, ...]  # tables and summary
-    consistent: ConsistentResult | None = None  # where maps were to agree
+    consistent: ConsistentResult | None = None  # where maps were made consistent
 
 
 def run_batch(
@@ -61,29 +61,29 @@ def run_batch(
     consistent: bool = False,
     progress: CountProgress | None = None,
 ) -> BatchResult:
-    """Do what the plan leaves to do, then write the tables and the summary.
+    """Do the remaining work of a plan, then write the tables and the summary.
 
     ``plan``: from :func:`~kfmaps.batch.plan.make_plan`; ``workers`` and ``progress``: see
-    :class:`~kfmaps.batch.jobs.WorkerPool`; ``name``: the summary's title; ``worst``: how many of the worst pairs the
-    summary shows as pictures; ``callback``: called with how the run stands, and with each result; ``consistent``:
-    whether the maps are made to agree in the end (:func:`~kfmaps.batch.consistent.make_consistent`).
+    :class:`~kfmaps.batch.jobs.WorkerPool`; ``name``: title of the summary; ``worst``: number of the worst pairs with a
+    picture in the summary; ``callback``: called with the state of the run and each result; ``consistent``: whether the
+    maps are made consistent in the end (:func:`~kfmaps.batch.consistent.make_consistent`).
     """
-    interrupted, agreed = False, None
+    interrupted, consistency = False, None
     log = log_to(plan.folder)
-    asked = {task.pair for task in plan.tasks}
+    planned = {task.pair for task in plan.tasks}
     with _locked(plan.folder), _tidied(plan), WorkerPool(workers, progress, log) as pool:
         of, todo, settings = len(plan.tasks), len(plan.todo), plan.spec.digest
-        told = {"todo": todo, "pairs": of, "settings": settings, "version": kfmaps.__version__}
-        log("begin", f"{todo} of {of} pairs to match", **told)
+        counts = {"todo": todo, "pairs": of, "settings": settings, "version": kfmaps.__version__}
+        log("begin", f"{todo} of {of} pairs to match", **counts)
         try:
             if plan.todo:
                 _match_pairs(plan, pool, callback, log)
             if consistent:
                 matched = all_results(plan.folder, plan.spec.digest)
-                agreed = make_consistent(plan, [r for r in matched if r.pair in asked], pool)
-                for r in (r for r in agreed.results if r.changed):
-                    told = f"{r.pair} replaced by {r.changed}: {r.why}"
-                    log("replaced", told, source=r.source, target=r.target, by=r.changed, why=r.why)
+                consistency = make_consistent(plan, [r for r in matched if r.pair in planned], pool)
+                for r in (r for r in consistency.results if r.changed):
+                    text = f"{r.pair} replaced by {r.changed}: {r.why}"
+                    log("replaced", text, source=r.source, target=r.target, by=r.changed, why=r.why)
         except (KeyboardInterrupt, SystemExit):  # Ctrl-C, or the signal that comes before a time limit
             interrupted = True
             log("interrupted", "interrupted")
@@ -92,24 +92,24 @@ def run_batch(
             log("stopped", f"stopped: {reason}", reason=reason)
             raise
         finally:
-            pool.close()  # else work under way could change results after the tables are written
-        better = {} if agreed is None else {r.pair: r for r in agreed.results}
-        everything = [better.get(r.pair, r) for r in all_results(plan.folder, plan.spec.digest)]
+            pool.close()  # otherwise running work could change results after the tables are written
+        updated = {} if consistency is None else {r.pair: r for r in consistency.results}
+        all_done = [updated.get(r.pair, r) for r in all_results(plan.folder, plan.spec.digest)]
         pool.progress("summary", 0, 1)
-        write_csv(plan.folder / TABLE, everything)
-        files = plan.folder / TABLE, write_page(plan, everything, name, 0 if interrupted else worst, agreed)
+        write_csv(plan.folder / TABLE, all_done)
+        files = plan.folder / TABLE, write_page(plan, all_done, name, 0 if interrupted else worst, consistency)
         pool.progress("summary", 1, 1)
-    results = tuple(r for r in everything if r.pair in asked)
+    results = tuple(r for r in all_done if r.pair in planned)
     failed = sum(r.status == "failed" for r in results)
     log("end", f"{len(results)} pairs have a result, {failed} of them failed", pairs=len(results), failed=failed)
-    return BatchResult(results, interrupted, files, agreed)
+    return BatchResult(results, interrupted, files, consistency)
 
 
 def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: Log) -> None:
-    """Prepare the shapes and match the pairs that the plan leaves to do.
+    """Prepare the remaining shapes and match the remaining pairs of a plan.
 
-    When a worker dies, Dask hands its task to another, which keeps what is finished and begins the rest anew. A task
-    that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
+    Dask gives the task of a dead worker to another, which starts it again. A task that kills
+    :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
     """
     callback = callback or (lambda _status, _result: None)
     _check_workers(plan, pool)
@@ -118,10 +118,10 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
     shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
     prepared: dict[Path, Prepared] = {}
     done: list[Result] = list(plan.results)
-    left = _work_left(plan)
+    work_left = _work_left(plan)
 
-    def tell(result: Result | None = None) -> None:
-        begun = {number: time.monotonic() - since for number, since in pool.begun.items()}
+    def report(result: Result | None = None) -> None:
+        elapsed = {number: time.monotonic() - since for number, since in pool.begun.items()}
         status = RunStatus(
             shapes_done=len(prepared),
             shapes=len(shapes),
@@ -129,8 +129,8 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
             failed=sum(r.status == "failed" for r in done),
             pairs=len(plan.tasks),
             workers=pool.n_threads,
-            remaining=left.remaining(begun, pool.n_threads) if len(prepared) == len(shapes) else None,
-            measured=len(left.measured),
+            remaining=work_left.remaining(elapsed, pool.n_threads) if len(prepared) == len(shapes) else None,
+            measured=len(work_left.measured),
         )
         if result is not None:
             values = {name: getattr(result, name) for name in _LOGGED} | {"seconds": result.seconds.get("total")}
@@ -138,24 +138,24 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
             log("pair", describe_result(result), **values, **counts)
         callback(status, result)
 
-    tell()
+    report()
     with closing(pool.imap(prepare_shape, shapes, n_begun=_attempts)) as values:
         for number, value in values:
             task = shapes[number]
-            outcome = value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
-            prepared[task.entry] = outcome
-            if reason := outcome.reason:
-                told = f"shape {task.name} could not be prepared: {reason}"
-                log("shape failed", told, shape=task.name, reason=reason)
-            tell()
+            preparation = value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
+            prepared[task.entry] = preparation
+            if reason := preparation.reason:
+                message = f"shape {task.name} could not be prepared: {reason}"
+                log("shape failed", message, shape=task.name, reason=reason)
+            report()
     jobs = [(task, prepared[task.source.entry], prepared[task.target.entry]) for task in plan.todo]
     results = pool.imap(match_pair, jobs, label=lambda job: str(job[0]), n_begun=lambda job: _attempts(job[0]))
     with closing(results) as values:
         for number, value in values:
             result = record_failure(plan.todo[number], error_text(value)) if isinstance(value, Exception) else value
-            left.end(number, result.seconds["total"] if result.status == "done" else None)
+            work_left.end(number, result.seconds["total"] if result.status == "done" else None)
             done.append(result)
-            tell(result)
+            report(result)
 
 
 def _attempts(task: ShapeTask | PairTask) -> int:
@@ -163,7 +163,7 @@ def _attempts(task: ShapeTask | PairTask) -> int:
 
 
 def _work_left(plan: Plan) -> WorkLeft:
-    """Return the pairs to match with their sizes, and what earlier runs measured."""
+    """Return the remaining pairs with their sizes, and the times of earlier runs."""
     entries = {t.entry: t for task in plan.tasks for t in (task.source, task.target)}
     vertices = {entry: _vertices(task) for entry, task in entries.items()}
     sizes = {task.pair: (vertices[task.source.entry] + vertices[task.target.entry]) / 2 for task in plan.tasks}
@@ -172,7 +172,7 @@ def _work_left(plan: Plan) -> WorkLeft:
 
 
 def _vertices(task: ShapeTask) -> float:
-    """Return the number of vertices of a shape, about, from the length of its file."""
+    """Return an estimate of the number of vertices of a shape from the size of its file."""
     try:
         return task.path.stat().st_size / _BYTES
     except OSError:
@@ -183,23 +183,23 @@ def _check_workers(plan: Plan, pool: WorkerPool) -> None:
     """Check that every worker has this version and sees the output folder under the same path."""
     name = "workers"
     try:
-        seen: Any = pool.client.run(_seen, str(plan.folder / FILE))
+        replies: Any = pool.client.run(_seen, str(plan.folder / FILE))
     except OSError as error:
         raise refuse(name, "processes that answer", "some that ended", TOO_LITTLE_MEMORY) from error
-    except Exception as error:  # whatever a foreign worker runs into
+    except Exception as error:  # a worker of another installation may fail in any way
         got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
-        raise refuse(name, "kfmaps installed on them", got, "install the same version there") from error
-    for address, (version, digest) in seen.items():
+        raise refuse(name, "kfmaps installed on all of them", got, "install the same version there") from error
+    for address, (version, digest) in replies.items():
         if version != kfmaps.__version__:
             got = f"{version} at {address}"
             raise refuse(name, f"kfmaps {kfmaps.__version__}", got, "install the same version there")
         if digest != plan.spec.digest:
             expected = f"the folder {plan.folder} on all of them"
-            raise refuse(name, expected, f"none at {address}", "choose one that all machines share")
+            raise refuse(name, expected, f"none at {address}", "choose a folder that all machines share")
 
 
 def _seen(path: str) -> tuple[str, str]:
-    """Return a worker's version of kfmaps, and the digest that it reads in the specification at ``path``."""
+    """Return a worker's version of kfmaps, and the digest of the specification at ``path``."""
     try:
         return kfmaps.__version__, json.loads(Path(path).read_text(encoding="utf-8"))["digest"]
     except (OSError, ValueError, KeyError):
@@ -210,11 +210,12 @@ def _seen(path: str) -> tuple[str, str]:
 def _tidied(plan: Plan) -> Iterator[None]:
     """Remove the half-written files of killed workers before and after the block.
 
-    In a cache that is a link to another folder, where other runs may be writing, only those older than a day go.
+    In a cache that is a link to another folder, where other runs may be writing, only those older than a day are
+    removed.
     """
-    beside = plan.folder / CONSISTENT
-    parts = (top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS))
-    folders = [plan.folder, beside, *parts, beside / EVIDENCE, beside / PATHS]
+    consistent = plan.folder / CONSISTENT
+    parts = (top / part for top in (plan.folder, consistent) for part in (FOLDER, MAPS))
+    folders = [plan.folder, consistent, *parts, consistent / EVIDENCE, consistent / PATHS]
 
     def tidy() -> None:
         for folder in folders:

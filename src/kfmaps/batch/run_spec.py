@@ -1,4 +1,4 @@
-"""What the results of a run depend on besides the shapes; an output folder holds results of one such specification."""
+"""The specification of a run: everything besides the shapes that results depend on. An output folder has one."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ class RunSpec:
     """Everything besides the shapes that results depend on."""
 
     config: Config
-    seed: int = 0  # given to every pair, as ``match`` does with its ``rng``
-    landmark_lines: tuple[int, ...] = ()  # lines, counted from 1, of the true correspondences that serve as landmarks
-    landmark_files: bool = True  # whether landmarks are taken from the folder when it has them
+    seed: int = 0  # of every pair
+    landmark_lines: tuple[int, ...] = ()  # lines of the truth, counted from 1, that serve as landmarks
+    landmark_files: bool = True  # whether landmarks of the folder are used
     identity: bool = False  # whether the truth is "vertex i is vertex i"
 
     def __post_init__(self) -> None:
@@ -32,7 +32,7 @@ class RunSpec:
             raise refuse("--landmarks", "each line once", "one twice", "leave it out")
 
     def as_dict(self) -> dict[str, object]:
-        """Return plain values, without the number of threads, which changes no result."""
+        """Return plain values without the number of threads, which does not affect results."""
         config = as_dict(self.config)
         del config["threads"]
         return {
@@ -46,7 +46,7 @@ class RunSpec:
 
     @cached_property
     def digest(self) -> str:
-        """16 hexadecimal digits that stand for these settings."""
+        """The digest of these settings, 16 hexadecimal digits."""
         return digest_of(self.as_dict())
 
 
@@ -57,7 +57,7 @@ def digest_of(values: object, digits: int = 16) -> str:
 
 
 def _flatten(values: object, name: str = "") -> dict[str, object]:
-    """Nested mappings as one, with dotted names."""
+    """Return nested mappings as one mapping with dotted names."""
     if not isinstance(values, Mapping):
         return {name: values}
     flat: dict[str, object] = {}
@@ -67,7 +67,7 @@ def _flatten(values: object, name: str = "") -> dict[str, object]:
 
 
 def claim(folder: Path, spec: RunSpec) -> None:
-    """Write ``spec`` into ``folder``, or check that the folder has the same one already."""
+    """Write ``spec`` into ``folder``, or check that the folder already has the same one."""
     path = folder / FILE
     now = spec.as_dict()
     if not path.exists():

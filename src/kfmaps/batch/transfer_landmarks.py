@@ -1,4 +1,4 @@
-"""Carry the landmarks of one or several specimens to all scans of a folder, and say how sure each position is."""
+"""Propagate the landmarks of one or several specimens to all scans of a folder, with a confidence for each."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ MAX_SPREAD = 0.015
 """Distance of a template's proposal from the median, in √area, above which a landmark is flagged. Chosen on the choice
 half of `benchmarks/skulls.py`, where it flags 2 % of the landmarks."""
 CORRECTED, CHECKED = REVIEWED = ("corrected", "checked")
-"""Flags of landmarks that somebody has moved, or has found right."""
-GOOD = ("sure", "likely", "landmarks", "unchecked")
-"""Verdicts of maps that carry landmarks."""
+"""Flags of landmarks that somebody has moved, or has confirmed."""
+USABLE_VERDICTS = ("sure", "likely", "landmarks", "unchecked")
+"""Verdicts of maps that propagate landmarks."""
 
 
 Corrections = Mapping[str, tuple[np.ndarray, str]]
@@ -54,14 +54,14 @@ Corrections = Mapping[str, tuple[np.ndarray, str]]
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """A specimen whose landmarks are given."""
+    """A specimen with landmarks of the user."""
 
     specimen: str
     file: Path  # of the landmarks
-    scan: Path  # of the mesh
+    scan: Path  # file of the mesh
     mesh: Mesh
     points: NamedPoints
-    space: str  # "LPS", "RAS" or "": the mesh's coordinate system, as far as mesh or landmarks name one
+    space: str  # "LPS", "RAS" or "": the mesh's coordinate system, where mesh or landmarks name one
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,16 +70,16 @@ class SpecimenLandmarks:
 
     specimen: str
     points: NamedPoints  # vertices of −1 and NaN where a landmark is missing
-    # (l,): largest distance of a template's proposal from the median, in the mesh's unit; NaN with one template.
+    # (l,) each, in the mesh's unit: the largest distance of a template's proposal from the median, NaN with one
+    # template; the least distance to the landmark by an alternative map, NaN without one.
     spread: np.ndarray
-    # (l,): distance to where the best other map puts the landmark, in the mesh's unit; NaN where no other map is known.
-    rival: np.ndarray
-    flags: tuple[str, ...]  # for each landmark why it should be looked at, or one of REVIEWED; empty for none
+    rival_distance: np.ndarray
+    flags: tuple[str, ...]  # for each landmark the reason to check it, or one of REVIEWED, or empty
     scan: Path = Path()  # file of the mesh
-    n_maps: int = 0  # maps that it rests on
+    n_maps: int = 0  # number of maps from templates that count
     verdict: str = ""  # of the best of these maps, "failed" without one, empty for a template
-    chance: float = np.nan  # probability of that map
-    misfit: str = ""  # why the specimen fits none of the others; empty where it does
+    probability: float = np.nan  # of that map
+    misfit: str = ""  # reason why the specimen does not fit the others; empty where it does
     space: str = ""  # "LPS", "RAS" or ""
 
     @property
@@ -89,17 +89,17 @@ class SpecimenLandmarks:
 
     @property
     def open_flags(self) -> tuple[str, ...]:
-        """The flags that nobody has dealt with; empty for the others."""
+        """The flags of landmarks that nobody has reviewed; empty for the others."""
         return tuple("" if flag in REVIEWED else flag for flag in self.flags)
 
 
 def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
-    """Read the landmarks of specimens that are among the scans; a file of several specimens holds as many templates.
+    """Read the landmarks of specimens that are among the scans; a file may hold several specimens.
 
-    A file belongs to the scan whose name its own name is or begins with. Several files of one scan are joined, such as
-    landmarks and a file for each curve; a curve is then named after its file.
+    A file belongs to the scan whose name equals the file's name or its beginning. Several files of one scan are joined,
+    such as landmarks and a file for each curve; a curve is then named after its file.
     """
-    found: dict[str, Template] = {}
+    by_name: dict[str, Template] = {}
     positions: dict[str, dict[str, np.ndarray]] = {}
     for file in files:
         sets = read_landmark_sets(file)
@@ -109,26 +109,26 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
             mesh, space = read_shape_mesh(path), mesh_space(path)
             if len(mesh.faces) == 0:
                 raise refuse(str(path), "a surface with faces", "a point cloud", "Landmarks lie on surfaces")
-            given = _name_curve(one, landmark_stem(file), name)
-            points = place_landmarks(given, mesh, str(file), space=space)
-            own = positions.setdefault(name, {})
-            if again := own.keys() & set(points.names):
-                got = f"two with {min(again)!r}"
+            landmarks = _name_curve(one, landmark_stem(file), name)
+            points = place_landmarks(landmarks, mesh, str(file), space=space)
+            own_points = positions.setdefault(name, {})
+            if repeated := own_points.keys() & set(points.names):
+                got = f"two with {min(repeated)!r}"
                 raise refuse(str(file), f"one file for each landmark of {name}", got, "leave one out")
-            own |= zip(points.names, points.points, strict=True)
-            found.setdefault(name, Template(name, file, path, mesh, points, space or _space(given, points)))
-    names = tuple(dict.fromkeys(label for own in positions.values() for label in own))
+            own_points |= zip(points.names, points.points, strict=True)
+            by_name.setdefault(name, Template(name, file, path, mesh, points, space or _space(landmarks, points)))
+    names = tuple(dict.fromkeys(label for own_points in positions.values() for label in own_points))
     curves = find_curves(names)
     names = tuple(names[row] for row in [*fixed_rows(names), *(row for curve in curves for row in curve.rows)])
-    for one, curve in itertools.product(found.values(), find_curves(names)):
+    for one, curve in itertools.product(by_name.values(), find_curves(names)):
         count = sum(names[row] in positions[one.specimen] for row in curve.rows)
         if 0 < count < len(curve.rows):
-            wanted = f"{len(curve.rows)} points of the curve {curve.name}, as another has"
-            raise refuse(str(one.file), wanted, f"{count}", "resample them alike")
+            expected = f"{len(curve.rows)} points of the curve {curve.name}, as another has"
+            raise refuse(str(one.file), expected, f"{count}", "resample them alike")
     templates: list[Template] = []
-    for one in found.values():
-        own = np.array([positions[one.specimen].get(name, np.full(3, np.nan)) for name in names])
-        points = points_on_surface(names, own, one.mesh)
+    for one in by_name.values():
+        own_points = np.array([positions[one.specimen].get(name, np.full(3, np.nan)) for name in names])
+        points = points_on_surface(names, own_points, one.mesh)
         if templates and is_mirror_image(points.points, templates[0].points.points):
             got = f"a mirror image of {templates[0].file}'s"
             remedy = "Left and right labels are swapped in one of them, or one of the scans is a mirror image"
@@ -142,16 +142,18 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
     ]
 
 
-def _name_curve(given: LandmarkSet, stem: str, specimen: str) -> LandmarkSet:
-    """Name the only curve of a file after the rest of the file's name, where the file has nothing else."""
+def _name_curve(landmarks: LandmarkSet, stem: str, specimen: str) -> LandmarkSet:
+    """Name the curve of a file without other landmarks after the rest of the file's name."""
     rest = stem.removeprefix(specimen).strip("._- ")
-    if not rest or fixed_rows(given.names) or len(find_curves(given.names)) > 1:
-        return given
-    return replace(given, names=tuple(re.sub(r"(curve|loop).*(_\d+)", rf"\g<1>{rest}\2", one) for one in given.names))
+    if not rest or fixed_rows(landmarks.names) or len(find_curves(landmarks.names)) > 1:
+        return landmarks
+    return replace(
+        landmarks, names=tuple(re.sub(r"(curve|loop).*(_\d+)", rf"\g<1>{rest}\2", one) for one in landmarks.names)
+    )
 
 
 def template_pairs(templates: Sequence[Template], scans: ShapeFolder) -> list[Pair]:
-    """Return the pairs to match: from each template to every other scan, other templates too, which tests them."""
+    """Return the pairs to match: from each template to every other scan, also to other templates, which tests them."""
     return [Pair(one.specimen, name) for one in templates for name in scans.shapes if name != one.specimen]
 
 
@@ -160,118 +162,119 @@ def corrected_pairs(
 ) -> dict[Pair, tuple[Path, Path]]:
     """Write the landmarks with which corrected specimens are matched again; return both files of each such pair.
 
-    Maps between templates stay as they are: they test the templates' landmarks.
+    Maps between templates do not change, since they test the templates' landmarks.
     """
-    own = {one.specimen: one.points for one in templates}
-    found: dict[Pair, tuple[Path, Path]] = {}
+    template_points = {one.specimen: one.points for one in templates}
+    files: dict[Pair, tuple[Path, Path]] = {}
     for pair in template_pairs(templates, scans):
-        known = corrections.get(pair.target, {}) if pair.target not in own else {}
-        given = dict(zip(own[pair.source].names, own[pair.source].points, strict=True))
-        names = tuple(name for name in known if name in given and np.isfinite([known[name][0], given[name]]).all())
-        if names:
+        corrected = corrections.get(pair.target, {}) if pair.target not in template_points else {}
+        source_points = dict(zip(template_points[pair.source].names, template_points[pair.source].points, strict=True))
+        ends = {name: (source_points[name], corrected[name][0]) for name in corrected if name in source_points}
+        ends = {name: points for name, points in ends.items() if np.isfinite(points).all()}
+        if ends:
             folder.mkdir(parents=True, exist_ok=True)
-            found[pair] = (folder / f"{pair.key}-source.csv", folder / f"{pair.key}-target.csv")
-            for file, points in zip(found[pair], (given, {name: known[name][0] for name in names}), strict=True):
-                placed = LandmarkSet(names, np.array([points[name] for name in names]), file.stem)
-                write_landmark_sets(file, [placed], force=True)
-    return found
+            files[pair] = (folder / f"{pair.key}-source.csv", folder / f"{pair.key}-target.csv")
+            for file, points in zip(files[pair], zip(*ends.values(), strict=True), strict=True):
+                write_landmark_sets(file, [LandmarkSet(tuple(ends), np.array(points), file.stem)], force=True)
+    return files
 
 
-def carry_templates(
+def propagate_landmarks(
     templates: Sequence[Template], specimen: str, path: Path, results: Mapping[str, Result], folder: Path
 ) -> SpecimenLandmarks:
-    """Return the landmarks of a scan: the geometric median of what the templates propose, on the surface.
+    """Return the landmarks of a scan: the geometric medians of the templates' proposals, on the surface.
 
-    Points of curves are slid before. ``results`` are those of the maps from the templates. Maps that are not good
-    (:data:`GOOD`) are left out where there are others. The confidence of a landmark is the mean of the templates'
-    confidences, times the fraction of templates whose proposal lies near the median (:data:`MAX_SPREAD`).
+    Points of curves are slid first. ``results``: of the maps, by template; those without a verdict among
+    :data:`USABLE_VERDICTS` count only where there are no others. The confidence of a landmark is the mean of the
+    templates' confidences times the fraction of proposals near the median (:data:`MAX_SPREAD`).
     """
     names = templates[0].points.names
     done = [one for one in templates if one.specimen in results and results[one.specimen].status == "done"]
-    used = [one for one in done if results[one.specimen].verdict in GOOD] or done
+    used = [one for one in done if results[one.specimen].verdict in USABLE_VERDICTS] or done
     if not used:
-        reasons = [r.reason for r in results.values() if r.reason]
-        nothing = np.full(len(names), np.nan)
+        reason = next((r.reason for r in results.values() if r.reason), "it was not matched")
+        unknown, flags = np.full(len(names), np.nan), ("",) * len(names)
         points = templates[0].points.without(np.ones(len(names), dtype=bool))
-        told = reasons[0] if reasons else "it was not matched"
-        return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), path, 0, "failed", misfit=told)
+        return SpecimenLandmarks(specimen, points, unknown, unknown, flags, path, 0, "failed", misfit=reason)
     mesh = read_shape_mesh(path)
     unit = float(np.sqrt(surface_area(mesh)))
-    carried, rivals = [], []
-    for one in used:
-        chance = results[one.specimen].confidence
-        known, points = _carry(one, specimen, mesh, folder, 1.0 if chance is None else chance)
-        carried.append(points)
-        rivals.append(_rival_distance(known, one, mesh, points))
-    proposals = _slide(np.stack([points.points for points in carried]), templates)
+    transferred, rivals = [], []
+    for template in used:
+        probability = results[template.specimen].confidence
+        match, points = _transfer(template, specimen, mesh, folder, 1.0 if probability is None else probability)
+        transferred.append(points)
+        rivals.append(_rival_distance(match, template, mesh, points))
+    proposals = _slide(np.stack([points.points for points in transferred]), templates)
     median = geometric_median(proposals)
     distances = np.linalg.norm(proposals - median, axis=2)
-    near = np.where(np.isnan(distances), np.nan, distances <= MAX_SPREAD * unit)
-    confidence = _mean(np.stack([points.confidence for points in carried])) * _mean(near)
+    is_near = np.where(np.isnan(distances), np.nan, distances <= MAX_SPREAD * unit)
+    confidence = _mean(np.stack([points.confidence for points in transferred])) * _mean(is_near)
     points = points_on_surface(names, median, mesh, confidence)
     spread = np.fmax.reduce(distances) if len(used) > 1 else np.full(len(names), np.nan)
-    flags = tuple(_flag(*one) for one in zip(confidence, spread / unit, points.vertices >= 0, strict=True))
+    flags = tuple(_flag(*row) for row in zip(confidence, spread / unit, points.vertices >= 0, strict=True))
     best = max((results[one.specimen] for one in used), key=lambda r: r.confidence or 0.0)
     space = mesh_space(path) or templates[0].space
     misfit = _misfit(best, points, templates[0])
-    chance = np.nan if best.confidence is None else best.confidence
-    told = (path, len(used), best.verdict, chance, misfit, space)
-    return SpecimenLandmarks(specimen, points, spread, np.fmin.reduce(rivals), flags, *told)
+    probability = np.nan if best.confidence is None else best.confidence
+    details = (path, len(used), best.verdict, probability, misfit, space)
+    return SpecimenLandmarks(specimen, points, spread, np.fmin.reduce(rivals), flags, *details)
 
 
 def _slide(points: np.ndarray, templates: Sequence[Template]) -> np.ndarray:
-    """Return landmarks of specimens (s, l, 3), points of curves slid against the template, or the mean of several."""
+    """Return landmarks of specimens (s, l, 3) with points of curves slid against the template or templates' mean."""
     curves = [(np.array(curve.rows), curve.closed) for curve in find_curves(templates[0].points.names)]
     if not curves:
         return points
-    given = np.stack([one.points.points for one in templates])
-    reference = given[0] if len(given) == 1 else generalized_procrustes(given).consensus
+    template_points = np.stack([one.points.points for one in templates])
+    reference = template_points[0] if len(template_points) == 1 else generalized_procrustes(template_points).consensus
     return np.stack([slide_semilandmarks(one, reference, curves) for one in points])
 
 
 def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
     """Return why a specimen does not fit the others, by its best map and its landmarks; empty where it does."""
-    if best.verdict not in GOOD:
+    if best.verdict not in USABLE_VERDICTS:
         return f"its best map is {best.verdict} ({100 * (best.confidence or 0.0):.0f} %, from {best.source})"
     if is_mirror_image(points.points, template.points.points):
         return "its landmarks are a mirror image of the templates': left and right are swapped, or the scan is mirrored"
     return ""
 
 
-def _carry(one: Template, specimen: str, mesh: Mesh, folder: Path, chance: float = 1.0) -> tuple[Match, NamedPoints]:
-    """Return the map from a template to a scan, and its landmarks there; those without counterpart are missing.
+def _transfer(template: Template, specimen: str, mesh: Mesh, folder: Path, p: float = 1.0) -> tuple[Match, NamedPoints]:
+    """Return the map from a template to a scan, and the landmarks on it; those without a counterpart are missing.
 
-    The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map.
+    The confidence of a point is that of the map's neighbourhood times ``p``, the probability of the map.
     """
-    file = map_path(folder, Pair(one.specimen, specimen).key)
-    known = load_map(file)
-    ways = find_counterparts(known, one.mesh, mesh, str(file))
-    trust = getattr(known, "local_confidence", None)  # a list of vertices has none
-    local = np.ones(len(mesh.vertices)) if trust is None else np.nan_to_num(trust)
-    carried = transfer_points(one.points, ways, local)
-    return known, replace(carried, confidence=carried.confidence * chance)
+    file = map_path(folder, Pair(template.specimen, specimen).key)
+    match = load_map(file)
+    counterparts = find_counterparts(match, template.mesh, mesh, str(file))
+    local_confidence = getattr(match, "local_confidence", None)  # a list of vertices has none
+    local = np.ones(len(mesh.vertices)) if local_confidence is None else np.nan_to_num(local_confidence)
+    transferred = transfer_points(template.points, counterparts, local)
+    return match, replace(transferred, confidence=transferred.confidence * p)
 
 
 def correct_points(points: NamedPoints, corrections: Corrections, mesh: Mesh) -> NamedPoints:
-    """Return points with those in ``corrections`` put to the closest places of the surface, with confidence 1."""
-    there = np.array([name in corrections for name in points.names])
+    """Return points with those in ``corrections`` moved to the closest points of the surface, with confidence 1."""
+    is_corrected = np.array([name in corrections for name in points.names])
     positions = np.array([corrections[name][0] if name in corrections else np.full(3, np.nan) for name in points.names])
-    new = points_on_surface(points.names, positions, mesh, np.ones(len(there)))
+    corrected = points_on_surface(points.names, positions, mesh, np.ones(len(is_corrected)))
 
     def merge(after: np.ndarray, before: np.ndarray) -> np.ndarray:
-        return np.where(there if after.ndim == 1 else there[:, None], after, before)
+        return np.where(is_corrected if after.ndim == 1 else is_corrected[:, None], after, before)
 
     return NamedPoints(
         points.names,
-        PointMap(merge(new.place.faces, points.place.faces), merge(new.place.weights, points.place.weights)),
-        merge(new.points, points.points),
-        merge(new.vertices, points.vertices),
-        merge(new.confidence, points.confidence),
+        PointMap(
+            merge(corrected.place.faces, points.place.faces), merge(corrected.place.weights, points.place.weights)
+        ),
+        merge(corrected.points, points.points),
+        merge(corrected.vertices, points.vertices),
+        merge(corrected.confidence, points.confidence),
     )
 
 
 def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> SpecimenLandmarks:
-    """Return the landmarks of a specimen with what somebody has corrected, which is marked in place of its flag."""
+    """Return the landmarks of a specimen with corrections, which are named in place of the flags."""
     if not corrections:
         return one
     points = correct_points(one.points, corrections, read_shape_mesh(one.scan))
@@ -280,13 +283,13 @@ def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> Speci
 
 
 def drop_unsure(one: SpecimenLandmarks, min_confidence: float) -> SpecimenLandmarks:
-    """Return the landmarks without those below a confidence, which become missing."""
+    """Return the landmarks with those below a confidence made missing."""
     points = one.points.without(~(one.points.confidence >= min_confidence))
     return replace(one, points=replace(points, confidence=one.points.confidence))
 
 
-def given_landmarks(template: Template) -> SpecimenLandmarks:
-    """Return a template's own landmarks as those of a specimen: sure, and not flagged."""
+def template_landmarks(template: Template) -> SpecimenLandmarks:
+    """Return a template's own landmarks as those of a specimen, with confidence 1 and without flags."""
     none = np.full(len(template.points.names), np.nan)
     points = replace(template.points, confidence=np.where(template.points.vertices >= 0, 1.0, np.nan))
     flags = ("",) * len(none)
@@ -294,61 +297,61 @@ def given_landmarks(template: Template) -> SpecimenLandmarks:
 
 
 def template_errors(templates: Sequence[Template], results: Mapping[Pair, Result], folder: Path) -> np.ndarray:
-    """Return how far each template's landmarks, carried to each other template, lie from those given there.
+    """Return the distances of each template's landmarks, transferred to each other template, from that one's own.
 
-    (pairs, l); NaN for none, and for points of curves, which may lie anywhere along them.
+    The shape is (pairs, l); NaN for missing landmarks and for points of curves, which may lie anywhere along them.
     """
     rows, names = [], templates[0].points.names
     fixed = fixed_rows(names)
     for a, b in itertools.permutations(templates, 2):
         result = results.get(Pair(a.specimen, b.specimen))
         if result is not None and result.status == "done":
-            carried = _carry(a, b.specimen, b.mesh, folder)[1]
+            transferred = _transfer(a, b.specimen, b.mesh, folder)[1]
             rows.append(np.full(len(names), np.nan))
-            rows[-1][fixed] = np.linalg.norm(carried.points - b.points.points, axis=1)[fixed]
+            rows[-1][fixed] = np.linalg.norm(transferred.points - b.points.points, axis=1)[fixed]
     return np.array(rows).reshape(-1, len(names))
 
 
 def _mean(values: np.ndarray) -> np.ndarray:
-    """The mean over the first axis of what is not NaN; NaN where there is nothing."""
+    """Return the mean over the first axis without NaN; NaN where there is nothing else."""
     count = np.isfinite(values).sum(axis=0)
     return np.where(count > 0, np.nansum(values, axis=0) / np.maximum(count, 1), np.nan)
 
 
-def _flag(confidence: float, spread: float, there: bool) -> str:
-    if not there:
+def _flag(confidence: float, spread: float, has_counterpart: bool) -> str:
+    if not has_counterpart:
         return "no counterpart"
     if spread > MAX_SPREAD:
         return "templates disagree"
     return "low confidence" if not confidence >= MIN_CONFIDENCE else ""
 
 
-def _rival_distance(known: Match, template: Template, mesh: Mesh, carried: NamedPoints) -> np.ndarray:
+def _rival_distance(match: Match, template: Template, mesh: Mesh, transferred: NamedPoints) -> np.ndarray:
     """Return the least distance at which an alternative map puts each landmark; NaN without alternatives."""
-    distances = np.full(len(carried.names), np.nan)
-    for other in known.alternatives:
+    distances = np.full(len(transferred.names), np.nan)
+    for other in match.alternatives:
         if (other >= 0).all():
             points = transfer_points(template.points, find_counterparts(Match(other), template.mesh, mesh)).points
-            distances = np.fmin(distances, np.linalg.norm(points - carried.points, axis=1))
+            distances = np.fmin(distances, np.linalg.norm(points - transferred.points, axis=1))
     return distances
 
 
 def _scan_of(name: str, scans: ShapeFolder, file: Path) -> str:
-    """The scan that landmarks belong to: that of the same name, else the longest that their name begins with."""
-    for known in (name, Path(name).stem):
-        if known in scans.shapes:
-            return known
-    begins = [one for one in scans.shapes if name.startswith(one) and not name[len(one)].isalnum()]
-    if begins:
-        return max(begins, key=len)
-    shown = ", ".join(list(scans.shapes)[:5])
+    """Return the scan of landmarks called ``name``: that of the same name, else the longest that begins the name."""
+    for candidate in (name, Path(name).stem):
+        if candidate in scans.shapes:
+            return candidate
+    prefixes = [one for one in scans.shapes if name.startswith(one) and not name[len(one)].isalnum()]
+    if prefixes:
+        return max(prefixes, key=len)
+    examples = ", ".join(list(scans.shapes)[:5])
     remedy = "Call the file of landmarks as the scan is called"
-    raise refuse(str(file), f"the name of a scan in {scans.folder} ({shown}, ...)", repr(name), remedy)
+    raise refuse(str(file), f"the name of a scan in {scans.folder} ({examples}, ...)", repr(name), remedy)
 
 
-def _space(given: LandmarkSet, placed: NamedPoints) -> str:
-    """The coordinate system of a mesh that names none: that of its landmarks, unless those were turned."""
-    if not given.space or given.vertices is not None:
-        return given.space
-    here, turned = (np.nansum(np.abs(placed.points - given.points * sign)) for sign in (1.0, FLIP))
-    return given.space if here <= turned else {LPS: RAS, RAS: LPS}[given.space]
+def _space(landmarks: LandmarkSet, points: NamedPoints) -> str:
+    """Return the coordinate system of a mesh that names none: that of its landmarks, or the other if these flipped."""
+    if not landmarks.space or landmarks.vertices is not None:
+        return landmarks.space
+    distance, flipped = (np.nansum(np.abs(points.points - landmarks.points * sign)) for sign in (1.0, FLIP))
+    return landmarks.space if distance <= flipped else {LPS: RAS, RAS: LPS}[landmarks.space]

@@ -1,4 +1,4 @@
-"""The units of work: prepare a shape, match a pair. Each can be interrupted and begun again at any moment."""
+"""The units of work: prepare a shape, match a pair. Each can be interrupted and started again at any time."""
 
 from __future__ import annotations
 
@@ -40,18 +40,18 @@ from kfmaps.shape import Shape, prepare
 
 _ATTEMPTS, MAPS = "attempts", "maps"
 _MIRRORED_POINTS = 500  # points at which a map is compared with the mirrored truth
-_EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)  # what may go wrong with one shape or pair
+_EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)  # errors of a single shape or pair
 _DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too little memory"
 
 
 @dataclass(frozen=True)
 class ShapeTask:
-    """One shape to prepare: a small record, the same on every machine."""
+    """One shape to prepare."""
 
     name: str
     path: Path  # of the mesh
-    content: str  # digest of that file when the run began
-    entry: Path  # where in the cache the prepared shape lies or will lie
+    content: str  # digest of that file at the start of the run
+    entry: Path  # file of the prepared shape in the cache
     folder: Path  # the output folder
     config: Config
 
@@ -65,11 +65,11 @@ class ShapeTask:
 
 @dataclass(frozen=True)
 class Prepared:
-    """Result of a :class:`ShapeTask`: why it failed, and warnings about the mesh."""
+    """Result of a :class:`ShapeTask`."""
 
     name: str
-    reason: str = ""
-    notes: tuple[str, ...] = ()
+    reason: str = ""  # of a failure
+    notes: tuple[str, ...] = ()  # warnings about the mesh
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class PairTask:
     source: ShapeTask
     target: ShapeTask
     spec: RunSpec
-    inputs: str  # digest of the files, as of Result
+    inputs: str  # digest of the input files, as in Result
     truth: tuple[Path, Path] | None = None  # vertex lists of source and target
     mirrored: Path | None = None  # vertex list of the target, left and right swapped
     truth_map: Path | None = None  # truth of this pair alone, see ShapeFolder
@@ -96,17 +96,17 @@ class PairTask:
 
     @property
     def settings(self) -> str:
-        """Digest of the specification, as of Result."""
+        """Digest of the specification, as in Result."""
         return self.spec.digest
 
 
 def map_path(folder: Path, key: str) -> Path:
-    """Return where the map of the pair with this key lies."""
+    """Return the file of the map of the pair with this key."""
     return folder / MAPS / f"{key}.npz"
 
 
 def begin(folder: Path, key: str) -> int:
-    """Note that work on ``key`` begins, in a small file that outlives a kill, and return which attempt it is."""
+    """Record the start of work on ``key`` in a small file that survives a kill; return the number of the attempt."""
     content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": now()})
     (folder / _ATTEMPTS).mkdir(parents=True, exist_ok=True)
     while True:
@@ -117,7 +117,7 @@ def begin(folder: Path, key: str) -> int:
 
 
 def attempts(folder: Path, key: str) -> int:
-    """Return how often work on ``key`` has begun."""
+    """Return the number of starts of work on ``key``."""
     count = 0
     while (folder / _ATTEMPTS / f"{key}.{count + 1}").exists():
         count += 1
@@ -142,7 +142,7 @@ def prepare_shape(task: ShapeTask) -> Prepared:
 
 
 def match_pair(job: tuple[PairTask, Prepared, Prepared]) -> Result:
-    """Match a pair unless its result is there; save the map and then the result. A failure is recorded, not raised."""
+    """Match a pair without a result; save the map and then the result. A failure is recorded, not raised."""
     task, source, target = job
 
     def matched() -> dict[str, Any]:
@@ -158,36 +158,36 @@ def match_pair(job: tuple[PairTask, Prepared, Prepared]) -> Result:
 def record_pair(
     task: PairTask, inputs: str, folder: Path, path: Path, make: Callable[[], dict[str, Any]], **values: Any
 ) -> Result:
-    """Return the result of a pair: that in ``folder`` if it was made from ``inputs``, else that of ``make``, saved.
+    """Return the result of a pair: the one in ``folder`` if it has these ``inputs``, else a new one that is saved.
 
-    ``path``: the map that ``make`` saves; ``values``: further fields of the result.
+    ``make``: saves the map at ``path`` and returns fields of the result; ``values``: further fields.
     """
     result_file = result_path(folder, task.key)
-    there = read_result(result_file)
-    if there is not None and there.is_of(task.settings, inputs) and path.exists():
-        return there
+    stored = read_result(result_file)
+    if stored is not None and stored.is_of(task.settings, inputs) and path.exists():
+        return stored
     start = time.perf_counter()
     attempt = begin(folder, task.key)
     for old in (result_file, path):  # of files that have changed since
         old.unlink(missing_ok=True)
-    made, reason, notes = _attempt(make)
-    seconds = {**made.pop("seconds", {}), "total": time.perf_counter() - start}
+    fields, reason, notes = _attempt(make)
+    seconds = {**fields.pop("seconds", {}), "total": time.perf_counter() - start}
     notes = (*values.pop("notes", ()), *notes)
-    result = _make_result(task, reason, inputs, attempts=attempt, notes=notes, seconds=seconds, **values, **made)
+    result = _make_result(task, reason, inputs, attempts=attempt, notes=notes, seconds=seconds, **values, **fields)
     result_file.parent.mkdir(parents=True, exist_ok=True)
     write_result(result_file, result)
     return result
 
 
 def record_failure(task: PairTask, reason: str) -> Result:
-    """Record that a pair cannot be matched, for a reason outside the work itself."""
+    """Record that a pair cannot be matched, for a reason outside its own work."""
     result = _make_result(task, reason, task.inputs, attempts=attempts(task.folder, task.key), worker="")
     write_result(result_path(task.folder, task.key), result)
     return result
 
 
 def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Result:
-    """The result of a pair, failed where there is a ``reason``, with the process and the time."""
+    """Return the result of a pair, which failed where there is a ``reason``, with process and time."""
     pair, status = task.pair, "failed" if reason else "done"
     values = {"worker": f"{platform.node()}:{os.getpid()}", "finished": now(), **values}
     values["notes"] = tuple(dict.fromkeys(values.get("notes", ())))
@@ -195,19 +195,19 @@ def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Res
 
 
 def _attempt(work: Callable[[], dict[str, Any]]) -> tuple[dict[str, Any], str, tuple[str, ...]]:
-    """Return the value of ``work``, why it failed, and its warnings: one bad pair must not end the run."""
-    done, reason = {}, ""
-    with warnings.catch_warnings(record=True) as told, limit_threads(1), one_blas_thread():
+    """Return the value of ``work``, the reason of its failure, and its warnings: one bad pair must not end the run."""
+    value, reason = {}, ""
+    with warnings.catch_warnings(record=True) as caught, limit_threads(1), one_blas_thread():
         warnings.simplefilter("always", KfmapsWarning)
         try:
-            done = work()
+            value = work()
         except Exception as error:
             reason = error_text(error)
-    return done, reason, tuple(str(w.message) for w in told if issubclass(w.category, KfmapsWarning))
+    return value, reason, tuple(str(w.message) for w in caught if issubclass(w.category, KfmapsWarning))
 
 
 def error_text(error: Exception) -> str:
-    """Return what went wrong, in one line; of an unexpected error with its type."""
+    """Return an error in one line, with its type where it is unexpected."""
     if type(error).__name__ == "KilledWorker":
         return _DIED
     text = str(error) if isinstance(error, _EXPECTED) else f"{type(error).__name__}: {error}"
@@ -239,44 +239,44 @@ def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamp
 
 
 def _matched(task: PairTask) -> dict[str, Any]:
-    """Match, save the map, and give the fields of the result."""
+    """Match a pair and save the map; return the fields of the result."""
     shapes, config = pair_shapes(task), replace(task.spec.config, threads=1)
     landmarks = _landmark_pairs(task, *(len(shape.mesh.vertices) for shape in shapes))
     probes = pair_samples(task, shapes) if config.search is not None and landmarks is None else None
-    found = match(*shapes, config, landmarks=landmarks, rng=task.spec.seed, probes=probes)
-    return save_pair_map(task, found, shapes, map_path(task.folder, task.key))
+    result = match(*shapes, config, landmarks=landmarks, rng=task.spec.seed, probes=probes)
+    return save_pair_map(task, result, shapes, map_path(task.folder, task.key))
 
 
-def save_pair_map(task: PairTask, found: Match, shapes: tuple[Shape, Shape], path: Path) -> dict[str, Any]:
-    """Save the map of a pair to ``path``, and return the fields of its result."""
+def save_pair_map(task: PairTask, match: Match, shapes: tuple[Shape, Shape], path: Path) -> dict[str, Any]:
+    """Save the map of a pair to ``path``; return the fields of its result."""
     source, target = (shape.mesh for shape in shapes)
     start = time.perf_counter()
-    truth, points = true_vertices(task, len(source.vertices), len(target.vertices)), found.target_to_source
+    truth, points = true_vertices(task, len(source.vertices), len(target.vertices)), match.target_to_source
     accuracy = None if truth is None else assess(source, points, truth, mirrored=_MIRRORED_POINTS)
-    reached = coverage(points, source)
-    seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
+    covered = coverage(points, source)
+    seconds = {**match.seconds, "evaluation": time.perf_counter() - start}
     path.parent.mkdir(parents=True, exist_ok=True)
-    save_map(path, with_files(found, (task.source.path, task.target.path), (source, target)), force=True)
+    save_map(path, with_files(match, (task.source.path, task.target.path), (source, target)), force=True)
     return _errors(accuracy) | {
         "vertices_s": len(source.vertices),
         "vertices_t": len(target.vertices),
-        "landmarks": len(found.landmarks),
-        "coverage": reached,
-        **_common(found, (source, target)),
-        "confidence": None if found.confidence is None else float(found.confidence),
-        "local_confidence": mean_confidence(found),
-        "verdict": found.verdict,
-        "orientation": found.orientation,
-        "solver": found.fit.status,
-        "solver_steps": found.fit.steps,
-        "rank": found.fit.rank,
+        "landmarks": len(match.landmarks),
+        "coverage": covered,
+        **_common(match, (source, target)),
+        "confidence": None if match.confidence is None else float(match.confidence),
+        "local_confidence": mean_confidence(match),
+        "verdict": match.verdict,
+        "orientation": match.orientation,
+        "solver": match.fit.status,
+        "solver_steps": match.fit.steps,
+        "rank": match.fit.rank,
         "seconds": seconds,
     }
 
 
-def _common(found: Match, meshes: tuple[Mesh, Mesh]) -> dict[str, float]:
+def _common(match: Match, meshes: tuple[Mesh, Mesh]) -> dict[str, float]:
     """Return the share of each shape's area that both have; empty for whole shapes."""
-    overlaps = {"common_s": found.partial.overlap_source, "common_t": found.partial.overlap_target}
+    overlaps = {"common_s": match.partial.overlap_source, "common_t": match.partial.overlap_target}
     return {
         name: float(np.average(overlap, weights=vertex_areas(mesh)))
         for (name, overlap), mesh in zip(overlaps.items(), meshes, strict=True)
@@ -300,7 +300,7 @@ def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
 
 
 def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
-    """Return what is known of the pair's true correspondence; ``n_s`` and ``n_t`` are the numbers of vertices."""
+    """Return the truth of a pair, where it is known; ``n_s`` and ``n_t``: numbers of vertices."""
     if task.truth_map is None:
         return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.spec.identity)
     numbers = read_vertex_numbers(task.truth_map, one_based=True)
@@ -310,7 +310,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
 
 
 def _landmark_pairs(task: PairTask, n_s: int, n_t: int) -> np.ndarray | None:
-    """The pair's landmarks (l, 2), 0-based, or ``None``."""
+    """Return the pair's landmarks (l, 2), 0-based, or ``None``."""
     truth = true_vertices(task, n_s, n_t)  # files that cannot be used are refused before the match
     if lines := task.spec.landmark_lines:
         if truth is None:

@@ -1,4 +1,4 @@
-"""A collection from Python: shapes go in, with or without maps, and maps that agree come out."""
+"""Match a collection of shapes, or take its maps, and make the maps consistent."""
 
 from __future__ import annotations
 
@@ -47,19 +47,19 @@ class Collection:
     maps : tuple of (n_t,) int64
         A source vertex for each target vertex of each pair, after the changes.
     matches : tuple of Match or None
-        Of each pair, with all that is known of it; ``None`` where a map was given and was kept.
+        Match of each pair; ``None`` where the caller gave the map and it was kept.
     probabilities : tuple of float
         Probability of each map beside all others; NaN of maps of parts.
     replacements : dict of (str, str) to str
-        Of each pair whose map others contradict: what replaced it, or "doubted".
+        By pair whose map others contradict: what replaced the map, or "doubted".
     chirality : dict of str to int
         1 and -1: shapes that are mirror images of each other's kind.
     limit_shapes : tuple of LimitShape
-        A common basis of all shapes or, where pairs do not join them all, of each part of three or more, the largest
-        first.
+        A common basis of all shapes or, where pairs do not connect them all, of each component of three or more, the
+        largest first.
     parts : tuple of (str, str)
-        Pairs of which one shape is a part of the other: their maps, with −1 where there is no counterpart, are as they
-        were given or matched, speak for or against no other, and are no way to a third shape.
+        Pairs in which one shape is a part of the other. Their maps, with −1 where there is no counterpart, stay as they
+        were given or matched. They count neither for nor against other maps, and are on no path to a third shape.
     """
 
     names: tuple[str, ...]
@@ -77,15 +77,15 @@ class Collection:
 
     @property
     def limit_shape(self) -> LimitShape | None:
-        """The common basis of all shapes; ``None`` where pairs do not join them all, or there are only two."""
+        """The common basis of all shapes; ``None`` where pairs do not connect them all, or there are only two."""
         whole = self.limit_shapes and len(self.limit_shapes[0].members) == len(self.names)
         return self.limit_shapes[0] if whole else None
 
     def map(self, source: str, target: str) -> np.ndarray:
-        """Return a vertex of ``source`` for each vertex of ``target``, (n_t,), of any two shapes that maps join.
+        """Return a vertex of ``source`` for each vertex of ``target``, (n_t,), for any two shapes that maps connect.
 
-        It follows the path whose maps are most probably all right: the pair's own map where that is best. Where no path
-        leads there it is the pair's own map of a part, if it has one, with −1 where there is no counterpart.
+        It is the composition along the path whose maps are most probably all right, which may be the pair's own map.
+        Without a path it is the pair's own map of a part, with −1 where there is no counterpart.
 
         Parameters
         ----------
@@ -95,7 +95,7 @@ class Collection:
         Raises
         ------
         InvalidInput
-            For names that are not there, and shapes that no maps join.
+            For unknown names, and shapes that no maps connect.
         """
         a, b = self._number(source), self._number(target)
         if a == b:
@@ -107,18 +107,18 @@ class Collection:
         if path is None:
             raise refuse("map", "two shapes that maps connect", f"{source} and {target}", "match more pairs")
         steps = []
-        for edge, here in zip(path.edges, path.shapes, strict=False):
+        for edge, shape in zip(path.edges, path.shapes, strict=False):
             first = ends[edge][0]
-            steps.append(((self.maps[edge], False), None if first == here else self.shapes[first].basis))
+            steps.append(((self.maps[edge], False), None if first == shape else self.shapes[first].basis))
         return compose_path(steps)[0]
 
     def distances(self, kind: str = "area") -> np.ndarray:
-        """Return how much the shapes differ, (n, n); NaN where no maps join them.
+        """Return how much the shapes differ, (n, n); NaN where no maps connect them.
 
         Parameters
         ----------
         kind : "area" or "conformal"
-            Whether they differ in areas, or in what is left when areas are kept.
+            Whether differences in area count, or differences in angles.
 
         Raises
         ------
@@ -127,11 +127,12 @@ class Collection:
         """
         if not self.limit_shapes:
             raise refuse("distances", "three shapes or more that maps connect", "fewer", "match more pairs")
-        found = np.full((len(self.names),) * 2, np.nan)
-        np.fill_diagonal(found, 0.0)
-        for one in self.limit_shapes:
-            found[np.ix_(one.members, one.members)] = shape_distances(one.operators(kind))
-        return found
+        matrix = np.full((len(self.names),) * 2, np.nan)
+        np.fill_diagonal(matrix, 0.0)
+        for limit_shape in self.limit_shapes:
+            rows = np.ix_(limit_shape.members, limit_shape.members)
+            matrix[rows] = shape_distances(limit_shape.operators(kind))
+        return matrix
 
     def _number(self, name: str) -> int:
         if name not in self.names:
@@ -141,9 +142,9 @@ class Collection:
 
 @dataclass(frozen=True, eq=False)
 class _PairMaps:
-    """A pair of shapes, by number, with its map and the map's alternatives, and their scores; none of maps of parts."""
+    """A pair of shapes with its match, and the scores of its map and alternatives; maps of parts have no scores."""
 
-    ends: tuple[int, int]
+    ends: tuple[int, int]  # numbers of source and target
     shapes: tuple[Shape, Shape]
     samples: tuple[ShapeSamples, ShapeSamples]
     match: Match
@@ -161,27 +162,26 @@ def match_collection(
 ) -> Collection:
     """Match a collection over a graph of pairs, or take its ``maps``, and make the maps agree.
 
-    Each pair's map and its alternatives are scored, and set beside compositions through other shapes. A map that the
-    others contradict is replaced by an alternative or a composition that they speak for, and that is finished as a
-    match is. Maps of parts, in which some vertices have no counterpart, stay as they are and take no part in this
-    (:attr:`Collection.parts`). All is done in this process; ``kfmaps batch --consistent`` does it with many, and goes
-    on where it stopped.
+    Each pair's map and its alternatives are scored, and compared with compositions through other shapes. A map that the
+    others contradict is replaced by an alternative or a composition that they support, which is then refined as a match
+    is. Maps of parts, in which some vertices have no counterpart, stay as they are (:attr:`Collection.parts`). All work
+    is done in this process; ``kfmaps batch --consistent`` uses many processes, and can be resumed.
 
     Parameters
     ----------
     shapes : mapping of name to shape, or sequence
-        As :func:`kfmaps.match` takes them; a sequence gets the names "0", "1", ...
+        As :func:`kfmaps.match` takes them; the shapes of a sequence are called "0", "1", ...
     maps : mapping of (source, target) to map, optional
-        Matches, map files, their paths, or a source vertex for each target vertex. Without them pairs are matched.
+        Matches, paths of map files, or a source vertex for each target vertex. Without them pairs are matched.
     graph : "near", "star" or "all"
-        Which pairs are matched: each shape with those that are most like it, the one in the middle with all others, or
-        all, one way.
+        Which pairs are matched: each shape with the most similar ones, the medoid with all others, or all pairs, one
+        way.
     config : Config, optional
         ``Config()`` when not given.
     rng : int
         Seed.
     progress : callable, optional
-        Called with what is being done, how much of it is done and how much there is.
+        Called with the name of the work, how many items are done, and how many there are.
 
     Returns
     -------
@@ -194,42 +194,41 @@ def match_collection(
     """
     config = config or Config()
     progress = progress or (lambda _what, _done, _of: None)
-    names, ready = _prepared(shapes, config, progress)
-    samples = [scoring_samples(shape, rng) for shape in ready]
-    known = {} if maps is None else _checked_maps(maps, names, ready)
-    ends = tuple(known) if maps is not None else signature_graph(graph, np.stack([signature(s.basis) for s in ready]))
+    names, prepared = _prepared(shapes, config, progress)
+    samples = [scoring_samples(shape, rng) for shape in prepared]
+    given = {} if maps is None else _checked_maps(maps, names, prepared)
+    ends = tuple(given) or signature_graph(graph, np.stack([signature(shape.basis) for shape in prepared]))
     pairs = []
     for i, (a, b) in enumerate(ends):
-        both, probes = (ready[a], ready[b]), (samples[a], samples[b])
-        match_ab = known[a, b] if (a, b) in known else match(*both, config, rng=rng, probes=probes)
+        both, both_samples = (prepared[a], prepared[b]), (samples[a], samples[b])
+        result = given[a, b] if given else match(*both, config, rng=rng, probes=both_samples)
         progress("pairs", i + 1, len(ends))
-        is_part = (match_ab.target_to_source < 0).any()
+        is_part = (result.target_to_source < 0).any()
         with one_blas_thread():
-            pairs.append(
-                _PairMaps((a, b), both, probes, match_ab, [] if is_part else score_stored(match_ab, both, probes))
-            )
-    return _collected(names, ready, pairs, config, rng, maps is not None)
+            scores = [] if is_part else score_stored(result, both, both_samples)
+        pairs.append(_PairMaps((a, b), both, both_samples, result, scores))
+    return _make_consistent(names, prepared, pairs, config, rng, maps is not None)
 
 
 def _prepared(
     shapes: Mapping[str, ShapeLike | Shape] | Sequence[ShapeLike | Shape], config: Config, progress: CountProgress
 ) -> tuple[tuple[str, ...], list[Shape]]:
     """Return the names of the shapes, and the shapes prepared."""
-    given = dict(shapes) if isinstance(shapes, Mapping) else {str(i): shape for i, shape in enumerate(shapes)}
-    check_count(len(given), "shapes", low=2)
-    ready = []
-    for i, (name, shape) in enumerate(given.items()):
+    named_shapes = dict(shapes) if isinstance(shapes, Mapping) else {str(i): shape for i, shape in enumerate(shapes)}
+    check_count(len(named_shapes), "shapes", low=2)
+    prepared = []
+    for i, (name, shape) in enumerate(named_shapes.items()):
         if isinstance(shape, Shape):
             check_prepared(shape, config)
-        ready.append(shape if isinstance(shape, Shape) else prepare(as_mesh(shape, name), config, name=name))
-        progress("shapes", i + 1, len(given))
-    return tuple(given), ready
+        prepared.append(shape if isinstance(shape, Shape) else prepare(as_mesh(shape, name), config, name=name))
+        progress("shapes", i + 1, len(named_shapes))
+    return tuple(named_shapes), prepared
 
 
-def _collected(
-    names: tuple[str, ...], shapes: list[Shape], pairs: list[_PairMaps], config: Config, seed: int, given: bool
+def _make_consistent(
+    names: tuple[str, ...], shapes: list[Shape], pairs: list[_PairMaps], config: Config, seed: int, has_maps: bool
 ) -> Collection:
-    """Make the maps of the pairs agree; those of parts take no part in it. ``given``: whether none was matched here."""
+    """Make the maps of whole shapes agree; those of parts stay. ``has_maps``: whether the caller gave all maps."""
     whole = [pair for pair in pairs if pair.scores]
     parts = [pair for pair in pairs if not pair.scores]
 
@@ -237,30 +236,31 @@ def _collected(
         steps = []
         for step in path.steps:
             pair = whole[step.edge]
-            one = stored_candidates(pair.match)[step.candidate]
-            steps.append((one, None if step.forward else pair.shapes[0].basis))
+            candidate = stored_candidates(pair.match)[step.candidate]
+            steps.append((candidate, None if step.forward else pair.shapes[0].basis))
         return compose_path(steps)
 
-    def score(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
+    def score(paths: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
         with one_blas_thread():
-            return [score_pair_maps([compose(p)], whole[i].shapes, whole[i].samples)[0] for i, p in asked]
+            return [score_pair_maps([compose(p)], whole[i].shapes, whole[i].samples)[0] for i, p in paths]
 
     ends, scores = [pair.ends for pair in whole], [pair.scores for pair in whole]
     repaired = repair_maps(len(names), ends, scores, score)
-    made: dict[int, Match] = {}
+    replaced: dict[int, Match] = {}
     for change in repaired.replacements:
         if change.kind != "none":
             pair, composition = whole[change.edge], None if change.path is None else compose(change.path)
             candidates, label = stored_candidates(pair.match), change.label(names)
-            made[change.edge] = refine_replacement(change, candidates, composition, pair.shapes, config, label, seed)
-    matches = [*(made.get(i, pair.match) for i, pair in enumerate(whole)), *(pair.match for pair in parts)]
+            arguments = pair.shapes, config, label, seed
+            replaced[change.edge] = refine_replacement(change, candidates, composition, *arguments)
+    matches = [*(replaced.get(i, pair.match) for i, pair in enumerate(whole)), *(pair.match for pair in parts)]
     named = tuple((names[pair.ends[0]], names[pair.ends[1]]) for pair in (*whole, *parts))
     return Collection(
         names,
         tuple(shapes),
         named,
         tuple(one.target_to_source for one in matches),
-        tuple(None if given and i not in made else one for i, one in enumerate(matches)),
+        tuple(None if has_maps and i not in replaced else one for i, one in enumerate(matches)),
         (*repaired.probabilities.tolist(), *[float("nan")] * len(parts)),
         {named[change.edge]: change.label(names) or "doubted" for change in repaired.replacements},
         dict(zip(names, repaired.chirality.tolist(), strict=True)),
@@ -272,16 +272,16 @@ def _collected(
 def _checked_maps(
     maps: Mapping[tuple[str, str], MapLike], names: Sequence[str], shapes: Sequence[Shape]
 ) -> dict[tuple[int, int], Match]:
-    found = {}
-    for (source, target), one in maps.items():
+    matches = {}
+    for (source, target), map in maps.items():
         for name in (source, target):
             if name not in names:
                 raise refuse("maps", f"names of shapes ({', '.join(names[:5])}, ...)", repr(name), "check the spelling")
         a, b = names.index(source), names.index(target)
-        file = as_map(one)
+        match = as_map(map)
         sizes = len(shapes[a].mesh.vertices), len(shapes[b].mesh.vertices)
-        points = check_map(file, *sizes, name=f"map {source} → {target}", partial=True)
-        found[a, b] = replace(file, target_to_source=points)
-    if not found:
+        points = check_map(match, *sizes, name=f"map {source} → {target}", partial=True)
+        matches[a, b] = replace(match, target_to_source=points)
+    if not matches:
         raise refuse("maps", "at least one", "none", "leave them out, and pairs are matched")
-    return found
+    return matches

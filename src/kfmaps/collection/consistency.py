@@ -1,4 +1,4 @@
-"""Score, compose and finish the maps of a collection, for maps in memory and in a folder alike."""
+"""Score, compose and refine the maps of a collection, whether they are in memory or in a folder."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def common_bases(
     scores: Sequence[Sequence[ScoredMap]],
     bases: Iterable[Basis],
 ) -> tuple[LimitShape, ...]:
-    """Return the common basis of each part of a collection that pairs join, the largest first.
+    """Return the common basis of each connected component of a collection, the largest first.
 
     ``ends`` and ``scores``: source, target and scored candidates of each pair, as :func:`repair_maps` takes them;
     ``bases``: of each shape, at unit area.
@@ -47,9 +47,10 @@ def stored_candidates(file: Match) -> list[StoredMap]:
 def score_stored(
     file: Match, shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
 ) -> list[ScoredMap]:
-    """Score the candidates of a file. The map in use has the score of its raw map, where that is better.
+    """Score the map in use and the alternatives of a match.
 
-    Alternatives are not finished, and finishing does not aim at the score.
+    The map in use gets the score of its raw map where that is better, since alternatives are not refined on all
+    vertices, and that refinement does not optimise the score.
     """
     check_map(file, len(shapes[0].mesh.vertices), len(shapes[1].mesh.vertices))
     maps = stored_candidates(file)
@@ -65,10 +66,10 @@ def score_stored(
 def compose_path(steps: Sequence[tuple[StoredMap, Basis | None]]) -> StoredMap:
     """Compose the candidates of a path.
 
-    ``steps``: a candidate that is gone through backwards has the basis of its source beside it.
+    ``steps``: each candidate with ``None``, or with the basis of its source where it is used backwards.
     """
     points = [one if basis is None else invert_map(one, basis, len(one)) for (one, _), basis in steps]
-    return compose_maps(points), sum(turned for (_, turned), _ in steps) % 2 == 1
+    return compose_maps(points), sum(is_reversed for (_, is_reversed), _ in steps) % 2 == 1
 
 
 def refine_replacement(
@@ -80,20 +81,20 @@ def refine_replacement(
     label: str,
     seed: int,
 ) -> Match:
-    """Finish the map that replaces another as a match is finished; the replaced one is its first alternative.
+    """Refine the map that replaces another as matches are refined; the replaced map is its first alternative.
 
     ``candidates``: of the pair, the map in use first; ``composition``: the composed map, where one replaces the map in
-    use; ``label``: what the new map started from.
+    use; ``label``: initialization of the new map.
     """
-    points, turned = candidates[replacement.candidate] if composition is None else composition
+    points, is_reversed = candidates[replacement.candidate] if composition is None else composition
     others = [row for i, (row, _) in enumerate(candidates) if i == 0 or i != replacement.candidate]
-    known = KnownMap(
+    known_map = KnownMap(
         points,
         label,
-        orientation="reversing" if turned else "preserving",
+        orientation="reversing" if is_reversed else "preserving",
         verdict=probability_word(replacement.after.probability),
         confidence=replacement.after.probability,
         quality=replacement.after.score,
         alternatives=tuple(np.asarray(row) for row in others),
     )
-    return match_from_map(*shapes, known, config, seed)
+    return match_from_map(*shapes, known_map, config, seed)

@@ -1,4 +1,4 @@
-"""What differs between the shapes of a collection: operators in one common basis, distances, principal components.
+"""Shape differences of a collection: operators in one common basis, distances, principal components.
 
 Maps ``Y_v`` from a common latent space to each shape's functions turn every shape's inner products of functions into
 matrices on the latent space: ``D_v = Y_vᵀ Y_v`` of functions themselves, which knows areas, and ``E_v = Y_vᵀ Λ_v Y_v``
@@ -24,7 +24,7 @@ from kfmaps.geometry.basis import Basis
 
 @dataclass(frozen=True, eq=False)
 class LimitShape:
-    """A common basis of shapes that pairs join.
+    """A common basis of connected shapes.
 
     Attributes
     ----------
@@ -76,9 +76,9 @@ def limit_shape(
 ) -> LimitShape:
     """Return the canonical latent basis of shapes whose maps agree.
 
-    Orthogonal maps know no areas. From them on each shape's map becomes the mean of what its neighbours' say, again
-    and again, and keeps its own stretch: subspace iteration for the least of ``Σ ‖C Y_s − Y_t‖²`` under the condition
-    that the mean of ``Y_vᵀ Y_v`` is the identity. In the end that of ``Y_vᵀ Λ_v Y_v`` is made diagonal.
+    Orthogonal maps ignore areas. So each shape's map becomes the mean of the images of its neighbours' maps, again and
+    again: subspace iteration for the minimum of ``Σ ‖C Y_s − Y_t‖²`` under the condition that the mean of ``Y_vᵀ Y_v``
+    is the identity. Finally the mean of ``Y_vᵀ Λ_v Y_v`` is made diagonal.
 
     Parameters
     ----------
@@ -97,15 +97,15 @@ def limit_shape(
     members = np.arange(len(latent)) if members is None else members
     values = check(eigenvalues, "eigenvalues", shape=(len(latent), None), finite=True)[members, :k]
     row = {int(v): i for i, v in enumerate(members)}
-    around: list[list[tuple[int, np.ndarray]]] = [[] for _ in members]
+    neighbours: list[list[tuple[int, np.ndarray]]] = [[] for _ in members]
     for source, target, C in maps:
         if source in row:
-            around[row[target]].append((row[source], C[:k, :k]))
-            # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
-            around[row[source]].append((row[target], np.linalg.pinv(C[:k, :k], rcond=0.2)))
+            neighbours[row[target]].append((row[source], C[:k, :k]))
+            # Backwards by the regularised inverse, since the transpose would invert a stretch.
+            neighbours[row[source]].append((row[target], np.linalg.pinv(C[:k, :k], rcond=0.2)))
     Y = _normalised(latent[members])
     for _ in range(30):  # iterations of the latent maps
-        means = [np.mean([C @ Y[u] for u, C in near], axis=0) if near else Y[v] for v, near in enumerate(around)]
+        means = [np.mean([C @ Y[u] for u, C in near], axis=0) if near else Y[v] for v, near in enumerate(neighbours)]
         Y = _normalised((Y + np.stack(means)) / 2)
     areas = (np.swapaxes(Y, 1, 2) @ Y).mean(axis=0)
     gradients = (np.swapaxes(Y, 1, 2) @ (values[:, :, None] * Y)).mean(axis=0)
@@ -124,8 +124,8 @@ def component_limit_shapes(
     ----------
     sync : SyncResult
     edges : sequence of Edge
-        Those that were synchronized; they may lack their last candidates, such as compositions. Of each the most
-        probable candidate takes part, where it is probably right.
+        Those that were synchronized, perhaps without their last candidates, such as compositions. The most probable
+        candidate of each is used, where it is probably right.
     eigenvalues : (n, k)
         Of each shape at unit area.
     size : int
@@ -143,7 +143,7 @@ def component_limit_shapes(
 
 
 def _normalised(maps: np.ndarray) -> np.ndarray:
-    """Such that the mean of ``Y_vᵀ Y_v`` is the identity."""
+    """Return the maps scaled such that the mean of ``Y_vᵀ Y_v`` is the identity."""
     areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
     values, functions = np.linalg.eigh(areas)
     return maps @ (functions / np.sqrt(np.maximum(values, 1e-9 * values[-1]))) @ functions.T
@@ -161,7 +161,7 @@ class Components:
     Attributes
     ----------
     scores : (n, c) float64
-        Where each shape lies along each component; mean 0.
+        Coordinate of each shape along each component; mean 0.
     directions : (c, m, d) float64
         The matrices that they stand for, orthonormal; the largest entry of each is positive.
     variances : (c,) float64
@@ -194,15 +194,15 @@ def components(matrices: np.ndarray, count: int | None = None) -> Components:
     n = len(matrices)
     mean = matrices.mean(axis=0)
     left, sizes, right = np.linalg.svd((matrices - mean).reshape(n, -1), full_matrices=False)
-    own = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum()) if count is None else check_count(count, "components")
-    kept = min(own, n - 1, len(sizes))
-    flip = np.where(right[np.arange(kept), np.abs(right[:kept]).argmax(axis=1)] < 0, -1.0, 1.0)
-    squares, whole = sizes[:kept] ** 2, (sizes**2).sum()
+    significant = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum())
+    n_kept = min(significant if count is None else check_count(count, "components"), n - 1, len(sizes))
+    flip = np.where(right[np.arange(n_kept), np.abs(right[:n_kept]).argmax(axis=1)] < 0, -1.0, 1.0)
+    squares, whole = sizes[:n_kept] ** 2, (sizes**2).sum()
     return Components(
-        left[:, :kept] * sizes[:kept] * flip,
-        (right[:kept] * flip[:, None]).reshape(kept, *mean.shape),
+        left[:, :n_kept] * sizes[:n_kept] * flip,
+        (right[:n_kept] * flip[:, None]).reshape(n_kept, *mean.shape),
         squares / max(n - 1, 1),
-        squares / whole if whole > 0 else np.zeros(kept),
+        squares / whole if whole > 0 else np.zeros(n_kept),
         mean,
     )
 
@@ -214,13 +214,12 @@ def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) 
     kind "area" it is the density of area, at the resolution of the latent functions; its standard deviation over
     the shapes tells where they differ.
 
-    ``matrices (n, m, m)``: :meth:`LimitShape.operators`; ``number``: the shape whose vertices are asked for;
-    ``basis``: of that shape.
+    ``matrices (n, m, m)``: :meth:`LimitShape.operators`; ``number`` and ``basis``: of the shape with the vertices.
     """
-    own = shape.maps[number]
-    functions = to_numpy(basis.functions)[:, : len(own)]
-    first = own.shape[1] - matrices.shape[1]
-    at = (functions @ np.linalg.pinv(own, rcond=0.05).T)[:, first:]
-    whole = np.einsum("xi,ij,xj->x", at, matrices.mean(axis=0), at)
-    each = np.stack([((at @ D) * at).sum(axis=1) for D in matrices])
-    return each / np.maximum(whole, 1e-9 * whole.max())
+    maps = shape.maps[number]
+    functions = to_numpy(basis.functions)[:, : len(maps)]
+    first = maps.shape[1] - matrices.shape[1]
+    coordinates = (functions @ np.linalg.pinv(maps, rcond=0.05).T)[:, first:]
+    mean = np.einsum("xi,ij,xj->x", coordinates, matrices.mean(axis=0), coordinates)
+    values = np.stack([((coordinates @ D) * coordinates).sum(axis=1) for D in matrices])
+    return values / np.maximum(mean, 1e-9 * mean.max())

@@ -1,7 +1,7 @@
 """Choose which pairs of a collection to match: a connected graph with cycles, a few pairs for each shape.
 
-A pair that lies on no cycle cannot be checked by others. So a spanning tree of the shapes that are most alike, which
-are the easiest to match, gets further pairs until each shape has a few, and no pair is the only way to anywhere.
+A pair on no cycle cannot be checked by others. So the graph begins with a spanning tree of the most similar shapes,
+which are the easiest to match. It gets further pairs until each shape has a few, and no pair is a bridge.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ Pairs = tuple[tuple[int, int], ...]
 def signature(basis: Basis) -> np.ndarray:
     """Return numbers that are close for similar shapes: logarithms of eigenvalues, and quantiles of the heat kernel.
 
-    They are free of units where ``basis`` is that of unit area, nearly free of pose, and free of the triangulation.
-    Mirror images have equal ones. Differences are of the order of 0.1 to 1.
+    They do not depend on units (at unit area) or the triangulation, and hardly on the pose. Mirror images have equal
+    ones. Differences are of the order of 0.1 to 1.
 
     Parameters
     ----------
@@ -65,30 +65,30 @@ def nearest_neighbor_graph(distances: np.ndarray, each: int = 4) -> Pairs:
     distances : (n, n)
         See :func:`signature_distances`; symmetric.
     each : int
-        Pairs that every shape is to have at least, from 2 on; in all there are about ``0.7 · each · n``, at most
-        ``each · n``, fewer only where there are not so many shapes.
+        Least number of pairs of each shape, from 2 on; there are about ``0.7 · each · n`` pairs, at most ``each · n``.
+        A small collection may have fewer.
 
     Returns
     -------
     tuple of (int, int)
-        Each once, the smaller number first, in order. Without any one of them the graph is still connected (but with
-        two shapes).
+        Each pair once, the smaller number first, in order. The graph stays connected without any one of them, unless
+        there are only two shapes.
     """
     count = len(distances)
-    # Zero is no edge to SciPy: equal shapes are as near as can be all the same.
-    apart = distances + 1e-9 * (1.0 + distances.max())
-    tree = coo_array(minimum_spanning_tree(np.triu(apart, 1)))
+    # SciPy takes a zero for no edge, but equal shapes have the distance zero.
+    lengths = distances + 1e-9 * (1.0 + distances.max())
+    tree = coo_array(minimum_spanning_tree(np.triu(lengths, 1)))
     first = {(int(min(a, b)), int(max(a, b))) for a, b in zip(tree.row, tree.col, strict=True)}
     chosen = set(first)
     degree = np.bincount(np.array(sorted(first)).ravel(), minlength=count)
-    order = np.argsort(apart + np.diag(np.full(count, np.inf)), axis=1, kind="stable")[:, : count - 1]
-    for one, others in enumerate(order):
-        pairs = [(int(min(one, other)), int(max(one, other))) for other in others]
+    order = np.argsort(lengths + np.diag(np.full(count, np.inf)), axis=1, kind="stable")[:, : count - 1]
+    for shape, others in enumerate(order):
+        pairs = [(int(min(shape, other)), int(max(shape, other))) for other in others]
         fresh = [pair for pair in pairs if pair not in first]
-        chosen |= set(fresh[: max(each - int(degree[one]), 0)])
+        chosen |= set(fresh[: max(each - int(degree[shape]), 0)])
     while (bridge := _bridge(count, chosen)) is not None:
         pair, side = bridge
-        between = np.where(side[:, None] & ~side[None, :], apart, np.inf)
+        between = np.where(side[:, None] & ~side[None, :], lengths, np.inf)
         between[pair], between[pair[::-1]] = np.inf, np.inf
         if not np.isfinite(between).any():
             break
@@ -103,8 +103,7 @@ def signature_graph(kind: str, signatures: np.ndarray) -> Pairs:
     Parameters
     ----------
     kind : "near", "star" or "all"
-        :func:`nearest_neighbor_graph`; the :func:`medoid` with all others, of which none can be checked by others; or
-        all pairs, one way.
+        :func:`nearest_neighbor_graph`; the :func:`medoid` with all others, without cycles; or all pairs, one way.
 
     Raises
     ------
@@ -123,7 +122,7 @@ def signature_graph(kind: str, signatures: np.ndarray) -> Pairs:
 
 
 def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], np.ndarray] | None:
-    """A bridge, ``None`` without one, and which shapes lie on one side of it, (n,) bool."""
+    """Return a bridge and which shapes lie on one side of it, (n,) bool; ``None`` where there is no bridge."""
     pair = min(bridges(count, pairs), default=None) if count > 2 else None
     if pair is None:
         return None
@@ -132,7 +131,7 @@ def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], n
 
 
 def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
-    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one the graph falls apart.
+    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle.
 
     A pair that is given twice is on a cycle of two.
     """

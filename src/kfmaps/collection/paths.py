@@ -18,12 +18,11 @@ from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
 @dataclass(frozen=True)
 class MapPath:
-    """A path between two shapes: its shapes from source to target, the edges between them, by number, and the product
-    of their probabilities."""
+    """A path of maps between two shapes."""
 
-    shapes: tuple[int, ...]
-    edges: tuple[int, ...]
-    probability: float
+    shapes: tuple[int, ...]  # from source to target
+    edges: tuple[int, ...]  # numbers of the maps between them
+    probability: float  # that all these maps are right
 
 
 def best_path(
@@ -36,29 +35,29 @@ def best_path(
 ) -> MapPath | None:
     """Return the path from ``source`` to ``target`` whose maps are most probably all right; ``None`` without one.
 
-    Of equally probable paths one of the fewest edges is taken.
+    A path with fewer edges is preferred among equally probable ones.
 
-    ``count``: number of shapes; ``ends``: the shapes of each edge, which is gone through both ways; ``probabilities``:
-    that the map of each edge is right; ``without``: an edge that is not to be used.
+    ``count``: number of shapes; ``ends``: shapes of each edge, which may be used both ways; ``probabilities``: that the
+    map of each edge is right; ``without``: an edge that is left out.
     """
     min_probability = 1e-6  # probability below which a pair is on no path
     used = [i for i, p in enumerate(probabilities) if p > min_probability and i != without]
     edges: dict[tuple[int, int], int] = {}  # the most probable between two shapes
     for number in sorted(used, key=lambda i: probabilities[i]):
         edges[min(ends[number]), max(ends[number])] = number
-    # Each step costs a little by itself.
+    # A small cost for each step prefers short paths.
     costs = [1e-6 - math.log(min(probabilities[number], 1.0)) for number in edges.values()]
     rows = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
     graph = csr_array((costs, rows.T), shape=(count, count))
-    before = dijkstra(graph, directed=False, indices=source, return_predecessors=True)[1]
+    predecessors = dijkstra(graph, directed=False, indices=source, return_predecessors=True)[1]
     shapes = [target]
     while shapes[-1] != source:
-        if before[shapes[-1]] < 0:
+        if predecessors[shapes[-1]] < 0:
             return None
-        shapes.append(int(before[shapes[-1]]))
+        shapes.append(int(predecessors[shapes[-1]]))
     shapes.reverse()
-    taken = [edges[min(pair), max(pair)] for pair in pairwise(shapes)]
-    return MapPath(tuple(shapes), tuple(taken), math.prod(min(probabilities[number], 1.0) for number in taken))
+    numbers = [edges[min(pair), max(pair)] for pair in pairwise(shapes)]
+    return MapPath(tuple(shapes), tuple(numbers), math.prod(min(probabilities[number], 1.0) for number in numbers))
 
 
 def compose_maps(maps: Sequence[np.ndarray]) -> np.ndarray:
@@ -66,18 +65,18 @@ def compose_maps(maps: Sequence[np.ndarray]) -> np.ndarray:
 
     ``maps[i] (n_{i+1},)`` names for each vertex of the path's shape i + 1 one of shape i.
     """
-    found = np.asarray(maps[-1])
-    for before in reversed(maps[:-1]):
-        before = np.asarray(before)
-        found = before[check_point_map(found, len(before), len(found))]
-    return found.astype(np.int64)
+    composed = np.asarray(maps[-1])
+    for previous in reversed(maps[:-1]):
+        previous = np.asarray(previous)
+        composed = previous[check_point_map(composed, len(previous), len(composed))]
+    return composed.astype(np.int64)
 
 
 def invert_map(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndarray:
     """Return the inverse map, (n_s,): for each source vertex the target vertex whose image is nearest to it.
 
-    Nearest in the embedding of the source's first functions, divided by the roots of their eigenvalues. Of a
-    one-to-one map it is the inverse.
+    Distances are those of the source's first eigenfunctions divided by the roots of their eigenvalues. For a one-to-one
+    map this is its inverse.
     """
     points = check_point_map(target_to_source, len(source.functions), n_t)
     k = min(60, len(source.eigenvalues))  # functions by which the nearest images are found where a map is inverted

@@ -15,57 +15,55 @@ MAX_ROUNDS = 100
 
 @dataclass(frozen=True, eq=False)
 class Procrustes:
-    """Specimens brought to one position, orientation and size."""
+    """Landmarks of specimens at one position, orientation and size."""
 
-    # (s, l, 3): Centred, of centroid size 1, turned to the consensus. Missing landmarks are those of the consensus.
+    # (s, l, 3): centred, of centroid size 1, rotated to the consensus, which replaces missing landmarks.
     aligned: np.ndarray
     consensus: np.ndarray  # (l, 3): the mean of the aligned specimens, of centroid size 1
-    # (s,): root of the summed squared distances of the landmarks from their mean, in the unit of the points.
-    centroid_sizes: np.ndarray
+    centroid_sizes: np.ndarray  # (s,): root of the sum of squared distances of the landmarks from their mean
     distances: np.ndarray  # (s,): Procrustes distance of each specimen from the consensus
 
 
 def generalized_procrustes(points: np.ndarray) -> Procrustes:
     """Return the generalised Procrustes analysis of landmarks (Gower 1975; Rohlf and Slice 1990), without reflections.
 
-    ``points (s, l, 3)``: NaN for a missing landmark, which takes its place in the consensus and does not count in the
-    alignment.
+    ``points (s, l, 3)``: NaN for a missing landmark, which does not count in the alignment.
     """
     check(points, "landmarks", shape=(None, None, 3), finite=False)
-    there = np.asarray(np.isfinite(points).all(axis=2))
-    if (there.sum(axis=1) < 3).any() or not there.any(axis=0).all():
-        got = "a specimen with fewer" if (there.sum(axis=1) < 3).any() else "one that all specimens lack"
+    is_present = np.asarray(np.isfinite(points).all(axis=2))
+    if (is_present.sum(axis=1) < 3).any() or not is_present.any(axis=0).all():
+        got = "a specimen with fewer" if (is_present.sum(axis=1) < 3).any() else "one that all specimens lack"
         raise refuse("landmarks", "three landmarks in each specimen, each in one at least", got, "leave it out")
-    first = int(np.argmax(there.sum(axis=1)))
-    consensus = _unit(np.where(there[first][:, None], points[first], np.nanmean(points[first], axis=0)))
+    first = int(np.argmax(is_present.sum(axis=1)))
+    consensus = _unit(np.where(is_present[first][:, None], points[first], np.nanmean(points[first], axis=0)))
     filled, aligned = points.copy(), points
     tolerance = 1e-12  # relative change of the consensus at which the rounds end
     for _ in range(MAX_ROUNDS):
-        aligned = np.stack([_aligned(one, seen, consensus) for one, seen in zip(points, there, strict=True)])
+        aligned = np.stack([_aligned(one, present, consensus) for one, present in zip(points, is_present, strict=True)])
         new = _unit(aligned.mean(axis=0))
         change = np.abs(new - consensus).max()
         consensus = new
         if change < tolerance:
             break
-    for i, seen in enumerate(there):  # missing landmarks in the specimen's own frame, for its size
-        if not seen.all():
-            turn, scale, shift = similarity(consensus[seen], points[i][seen])
-            filled[i][~seen] = (scale * consensus @ turn + shift)[~seen]
+    for i, present in enumerate(is_present):  # missing landmarks in the specimen's own frame, for its size
+        if not present.all():
+            turn, scale, shift = similarity(consensus[present], points[i][present])
+            filled[i][~present] = (scale * consensus @ turn + shift)[~present]
     sizes = np.sqrt(((filled - filled.mean(axis=1, keepdims=True)) ** 2).sum(axis=(1, 2)))
     distances = np.sqrt(((aligned - consensus) ** 2).sum(axis=(1, 2)))
     return Procrustes(aligned, consensus, sizes, distances)
 
 
 def is_mirror_image(points: np.ndarray, reference: np.ndarray) -> bool:
-    """Return whether landmarks (l, 3) fit the mirror image of others much better than the others themselves.
+    """Return whether landmarks (l, 3) fit a mirror image of the ``reference`` much better than the reference itself.
 
     That happens where left and right labels are swapped, or where one of two scans is a mirror image. Landmarks that
     lie nearly in a plane fit both.
     """
-    seen = np.isfinite(points).all(axis=1) & np.isfinite(reference).all(axis=1)
-    if seen.sum() < 4:
+    both = np.isfinite(points).all(axis=1) & np.isfinite(reference).all(axis=1)
+    if both.sum() < 4:
         return False
-    a, b = points[seen], reference[seen]
+    a, b = points[both], reference[both]
     residuals = []
     for reflect in (False, True):
         turn, scale, shift = similarity(a, b, reflect)
@@ -78,13 +76,13 @@ def _unit(points: np.ndarray) -> np.ndarray:
     return centred / np.sqrt((centred**2).sum())
 
 
-def _aligned(points: np.ndarray, seen: np.ndarray, consensus: np.ndarray) -> np.ndarray:
-    """One specimen turned to the consensus and of centroid size 1, its missing landmarks those of the consensus."""
-    turn, scale, shift = similarity(points[seen], consensus[seen])
-    if seen.all():
+def _aligned(points: np.ndarray, present: np.ndarray, consensus: np.ndarray) -> np.ndarray:
+    """Return one specimen rotated to the consensus, of centroid size 1, with missing landmarks of the consensus."""
+    turn, scale, shift = similarity(points[present], consensus[present])
+    if present.all():
         return _unit(points) @ turn
-    placed = scale * points @ turn + shift
-    return _unit(np.where(seen[:, None], placed, consensus))
+    aligned = scale * points @ turn + shift
+    return _unit(np.where(present[:, None], aligned, consensus))
 
 
 def thin_plate_warp(points: np.ndarray, landmarks: np.ndarray, onto: np.ndarray) -> np.ndarray:
@@ -93,19 +91,18 @@ def thin_plate_warp(points: np.ndarray, landmarks: np.ndarray, onto: np.ndarray)
 
 
 def geometric_median(points: np.ndarray) -> np.ndarray:
-    """Return the point with the least sum of distances to given ones, by Weiszfeld's iteration.
+    """Return the point with the least sum of distances to ``points (t, l, 3)``, (l, 3), by Weiszfeld's iteration.
 
-    ``points (t, l, 3)``: ``t`` proposals for each of ``l`` points; NaN proposals do not count. Returns (l, 3): of two
-    proposals their mean; NaN where there is none.
+    ``t`` proposals for each of ``l`` points have their mean where there are two; NaN proposals do not count.
     """
-    there = np.asarray(np.isfinite(points).all(axis=2))
-    values = np.where(there[..., None], points, 0.0)
+    is_present = np.asarray(np.isfinite(points).all(axis=2))
+    values = np.where(is_present[..., None], points, 0.0)
 
     def mean(weight: np.ndarray) -> np.ndarray:
         with np.errstate(invalid="ignore"):
             return (weight[..., None] * values).sum(axis=0) / np.asarray(weight.sum(axis=0))[:, None]
 
-    median, floor = mean(there.astype(np.float64)), 1e-9 * (np.abs(values).max(initial=0.0) + 1e-300)
+    median, floor = mean(is_present.astype(np.float64)), 1e-9 * (np.abs(values).max(initial=0.0) + 1e-300)
     for _ in range(MAX_ROUNDS):
-        median = mean(np.where(there, 1.0 / np.maximum(np.linalg.norm(values - median, axis=2), floor), 0.0))
+        median = mean(np.where(is_present, 1.0 / np.maximum(np.linalg.norm(values - median, axis=2), floor), 0.0))
     return median

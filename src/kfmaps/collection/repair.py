@@ -1,9 +1,8 @@
 """Choose which pairs of a collection get another map, which one, and why.
 
-:func:`kfmaps.collection.synchronization.synchronize` says how probable each candidate of each pair is beside all
-others. Where the map in use is rather wrong, the composition of the maps on the best other path becomes one more
-candidate, scored as the others are, and all is synchronized once more. A map is replaced only where it is improbable
-and another one probable; where no candidate is, that is said.
+:func:`kfmaps.collection.synchronization.synchronize` gives the probability of each candidate of each pair. Where the
+map in use is doubtful, the composition of the maps on the best other path becomes one more candidate with a score, and
+all candidates are synchronized again. A map is replaced only where it is improbable and another one is probable.
 """
 
 from __future__ import annotations
@@ -27,68 +26,65 @@ from kfmaps.collection.synchronization import (
 from kfmaps.geometry.connectivity import component_labels
 from kfmaps.matching.score import SCORE
 
-_NAMED = 5  # shapes of a composition that its label names
-_DOUBT = 0.5  # probability of the map in use below which a composition is sought
+_MAX_NAMED = 5  # shapes of a composition that its label names
+_MIN_PROBABILITY = 0.5  # probability of the map in use below which a composition is sought
 
 
 @dataclass(frozen=True)
 class CycleStep:
-    """One map on a path: of edge ``edge`` its candidate number ``candidate``, from its source or (not) ``forward``."""
+    """One map on a path."""
 
     edge: int
-    candidate: int
-    forward: bool
+    candidate: int  # number of the edge's candidate
+    forward: bool  # whether the step goes from the edge's source to its target
 
 
 @dataclass(frozen=True)
 class CyclePath:
-    """A path that closes a cycle with a pair: steps from the pair's source to its target, and the shapes between."""
+    """A path that closes a cycle with a pair."""
 
-    steps: tuple[CycleStep, ...]
-    through: tuple[int, ...]
+    steps: tuple[CycleStep, ...]  # from the pair's source to its target
+    through: tuple[int, ...]  # the shapes between
 
 
 @dataclass(frozen=True)
 class MapEvidence:
-    """What is known of a candidate map."""
+    """The evidence about a candidate map."""
 
-    probability: float  # that it is right, beside all other maps
-    score: float  # its own evidence, :attr:`kfmaps.matching.score.Quality.score`
-    residual: float  # its distance from what the rest of the collection says (:class:`SyncResult`)
+    probability: float  # that it is right, given all other maps
+    score: float  # :attr:`kfmaps.matching.score.Quality.score`
+    residual: float  # distance from the synchronized maps, see :class:`SyncResult`
 
 
 @dataclass(frozen=True)
 class Replacement:
-    """What becomes of a pair whose map in use is improbable."""
+    """The replacement of a pair's improbable map, or none."""
 
     edge: int
-    # "alternative", "composition" or "none": what replaces the map; "none" where no candidate is probable, and the map
-    # stays.
-    kind: str
-    before: MapEvidence  # of the map that was in use, and of the one that is
-    after: MapEvidence
+    kind: str  # "alternative", "composition" or "none", where no candidate is probable and the map stays
+    before: MapEvidence  # of the old map
+    after: MapEvidence  # of the new map
     candidate: int = 0  # the alternative's number, from 1
     path: CyclePath | None = None  # of a composition
-    # Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
-    contradicts: bool = False
-    improved: bool = False  # whether that map was right on the whole, and a composition merely fits better
+    contradicts: bool = False  # whether the old map has another orientation than it claims, or than the collection
+    improved: bool = False  # whether the old map was right on the whole, and a composition only fits better
 
     def label(self, names: Sequence[str]) -> str:
-        """Return what the map was replaced by, in words; empty where it stays."""
+        """Return the replacement in words; empty where the map stays."""
         if self.path is not None:
             through = [names[i] for i in self.path.through]
-            more = [f"{len(through) - _NAMED} more"] if len(through) > _NAMED else []
-            return f"composition through {', '.join([*through[:_NAMED], *more])}"
+            more = [f"{len(through) - _MAX_NAMED} more"] if len(through) > _MAX_NAMED else []
+            return f"composition through {', '.join([*through[:_MAX_NAMED], *more])}"
         return f"alternative {self.candidate}" if self.kind == "alternative" else ""
 
     def reason(self) -> str:
-        """Return why, in words."""
+        """Return the reason of the replacement in words."""
         before, after = self.before, self.after
         scores = f"score {before.score:.1f}, now {after.score:.1f}"
         if self.improved:
-            residuals = f"by {before.residual:.2f}, and this by {after.residual:.2f}"
-            return f"it strays from what other pairs say, {residuals}; {scores}"
-        other = "no other map is probable" if self.kind == "none" else f"this {after.probability:.0%}"
+            residuals = f"by {before.residual:.2f}, the new one by {after.residual:.2f}"
+            return f"it deviates from the other pairs {residuals}; {scores}"
+        other = "no other map is probable" if self.kind == "none" else f"the new one {after.probability:.0%}"
         parts = [f"other pairs leave it a probability of {before.probability:.1%}, and {other}"]
         parts += ["it is of another orientation than it claims"] if self.contradicts else []
         parts += [scores] if self.kind != "none" else []
@@ -119,16 +115,16 @@ Compose = Callable[[list[tuple[int, CyclePath]]], list[ScoredMap]]
 def repair_maps(
     count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], compose: Compose
 ) -> RepairResult:
-    """Find which maps of a collection of ``count`` shapes are wrong, and what replaces them.
+    """Find which maps of a collection of ``count`` shapes are wrong, and their replacements.
 
-    ``count``: number of shapes; ``ends``: source and target of each pair; ``maps``: of each pair the map in use and its
-    alternatives; ``compose``: makes and scores compositions, all that one round asks for at once.
+    ``ends``: source and target of each pair; ``maps``: the map in use and the alternatives of each pair; ``compose``:
+    makes and scores all compositions of one round.
     """
     return _Repair(count, ends, maps, compose).run()
 
 
 class _Repair:
-    """The candidates of each edge as they grow by compositions, and what their synchronization says."""
+    """The candidates of each edge, to which compositions are added, and their synchronization."""
 
     def __init__(
         self, count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], compose: Compose
@@ -142,27 +138,27 @@ class _Repair:
     def run(self) -> RepairResult:
         tried: set[tuple[int, CyclePath]] = set()
         for _ in range(3):  # rounds of compositions: a replaced map may open a path for others
-            doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < _DOUBT]
-            asked = [one for one in self._paths_around(doubted) if one not in tried]
-            if not asked:
+            doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < _MIN_PROBABILITY]
+            paths = [pair_path for pair_path in self._paths_around(doubted) if pair_path not in tried]
+            if not paths:
                 break
-            tried |= set(asked)
-            for (i, path), made in zip(asked, self.compose(asked), strict=True):
-                self._offer(i, made, path)
+            tried |= set(paths)
+            for (i, path), composition in zip(paths, self.compose(paths), strict=True):
+                self._offer(i, composition, path)
             self.signs, self.sync = _synchronize(self.count, self.ends, self.maps)
         changes = {i: change for i in range(len(self.ends)) if (change := self._replacement(i)) is not None}
         changes |= self._improvements(changes.keys())
         return RepairResult(self.sync, tuple(changes[i] for i in sorted(changes)), self.signs)
 
     def _paths_around(self, edges: Sequence[int]) -> list[tuple[int, CyclePath]]:
-        """For each of the ``edges`` the most probable other path, and those of two steps; each once.
+        """Return the most probable other path of each of the ``edges``, and paths of two steps, each once.
 
-        Edges of which a composition is the best candidate are no part of a path: they are paths themselves.
+        Edges whose best candidate is a composition are left out of paths.
         """
         best = [int(chances[:-1].argmax()) for chances in self.sync.probabilities]
         each = zip(self.sync.probabilities, best, self.given, strict=True)
-        chances = [float(p[b]) if b < given else 0.0 for p, b, given in each]
-        found: list[tuple[int, CyclePath]] = []
+        chances = [float(p[b]) if b < n_given else 0.0 for p, b, n_given in each]
+        alternatives: list[tuple[int, CyclePath]] = []
         min_path_probability = 0.3  # least probability that all maps of a path are right
         for i in edges:
             likely = best_path(self.count, self.ends, chances, *self.ends[i], without=i)
@@ -171,16 +167,16 @@ class _Repair:
                 walk = zip(likely.edges, likely.shapes, strict=False)
                 steps = tuple(CycleStep(e, best[e], self.ends[e][0] == at) for e, at in walk)
                 paths.insert(0, CyclePath(steps, likely.shapes[1:-1]))
-            found += [(i, path) for path in dict.fromkeys(paths)]
-        return found
+            alternatives += [(i, path) for path in dict.fromkeys(paths)]
+        return alternatives
 
-    def _offer(self, edge: int, made: ScoredMap, path: CyclePath) -> None:
-        """Add a composition to the candidates; where it is nearly one of them, that one may take its score."""
+    def _offer(self, edge: int, composition: ScoredMap, path: CyclePath) -> None:
+        """Add a composition to the candidates; one that it nearly equals gets its score instead, if that is better."""
         for i, one in enumerate(self.maps[edge]):
-            if is_same_map(one, made):
-                self.maps[edge][i] = with_better_score(one, made)
+            if is_same_map(one, composition):
+                self.maps[edge][i] = with_better_score(one, composition)
                 return
-        self.maps[edge].append(made)
+        self.maps[edge].append(composition)
         self.paths[edge].append(path)
 
     def _evidence(self, edge: int, candidate: int) -> MapEvidence:
@@ -188,70 +184,70 @@ class _Repair:
         return MapEvidence(float(probability), self.maps[edge][candidate].score, float(residual))
 
     def _replacement(self, edge: int) -> Replacement | None:
-        """What replaces a map that is improbable; ``None`` for other maps."""
-        chances, given, (a, b) = self.sync.probabilities[edge], self.given[edge], self.ends[edge]
+        """Return the replacement of an improbable map; ``None`` for other maps."""
+        chances, n_given, (a, b) = self.sync.probabilities[edge], self.given[edge], self.ends[edge]
         if chances[0] >= 0.1:  # probability of the map in use below which it is replaced
             return None
         best = int(chances[:-1].argmax())
         best = best if chances[best] >= 0.5 else 0  # least probability of the map that replaces it
-        first, composed = self.maps[edge][0], best >= given
+        first, composed = self.maps[edge][0], best >= n_given
         return Replacement(
             edge,
             "none" if best == 0 else "composition" if composed else "alternative",
             self._evidence(edge, 0),
             self._evidence(edge, best),
             candidate=0 if composed else best,
-            path=self.paths[edge][best - given] if composed else None,
+            path=self.paths[edge][best - n_given] if composed else None,
             contradicts=first.reversed != (self.signs[a] != self.signs[b]) or first.orientation < SCORE.min_orientation,
         )
 
     def _improvements(self, done: Collection[int]) -> dict[int, Replacement]:
-        """Replace maps that are right on the whole and loose in part, where a path fits better and scores better.
+        """Return better compositions for maps that are right on the whole but have a large residual.
 
-        Loose are those whose residual is beyond :data:`OUTLIER_FACTOR` times the median.
+        A residual is large beyond :data:`OUTLIER_FACTOR` times the median; the composition must fit and score better.
         """
-        own = np.array([residuals[0] for residuals in self.sync.residuals])
-        limit = OUTLIER_FACTOR * float(np.median(own)) + 1e-9 if len(own) else 0.0
-        right = [chances[0] >= _DOUBT for chances in self.sync.probabilities]
-        asked = self._paths_around([i for i in np.flatnonzero(own > limit).tolist() if i not in done and right[i]])
-        found: dict[int, Replacement] = {}
+        in_use = np.array([residuals[0] for residuals in self.sync.residuals])
+        limit = OUTLIER_FACTOR * float(np.median(in_use)) + 1e-9 if len(in_use) else 0.0
+        right = [chances[0] >= _MIN_PROBABILITY for chances in self.sync.probabilities]
+        paths = self._paths_around([i for i in np.flatnonzero(in_use > limit).tolist() if i not in done and right[i]])
+        replacements: dict[int, Replacement] = {}
         size, latent = self.sync.latent.shape[1], self.sync.latent
         min_gain = 0.3  # how much better a composition must score to replace a map that is right on the whole
-        for (i, path), made in zip(asked, self.compose(asked) if asked else [], strict=True):
+        for (i, path), composition in zip(paths, self.compose(paths) if paths else [], strict=True):
             a, b = self.ends[i]
-            residual = float(map_residuals(made.map[None, :size, :size], latent[a], latent[b])[0])
+            residual = float(map_residuals(composition.map[None, :size, :size], latent[a], latent[b])[0])
             before = self._evidence(i, 0)
-            least = found[i].after.score if i in found else before.score + min_gain
-            if made.score > least and residual < own[i] and made.reversed == self.maps[i][0].reversed:
-                after = MapEvidence(before.probability, made.score, residual)
-                found[i] = Replacement(i, "composition", before, after, path=path, improved=True)
-        return found
+            least = replacements[i].after.score if i in replacements else before.score + min_gain
+            if composition.score > least and residual < in_use[i] and composition.reversed == self.maps[i][0].reversed:
+                after = MapEvidence(before.probability, composition.score, residual)
+                replacements[i] = Replacement(i, "composition", before, after, path=path, improved=True)
+        return replacements
 
 
 def _two_step_paths(ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], edge: int) -> list[CyclePath]:
     """Return at most three paths of two steps around an edge, by the maps in use, best scores first.
 
-    What most candidates say may be wrong together. These say what the maps say that a search thought best.
+    Most candidates may be wrong together. These paths use only the maps that a search chose.
     """
     source, target = ends[edge]
-    near: dict[int, dict[int, int]] = {source: {}, target: {}}
+    edges_at: dict[int, dict[int, int]] = {source: {}, target: {}}
     for i in sorted(range(len(ends)), key=lambda i: maps[i][0].score):  # of several between two shapes the best
-        for here, other in (ends[i], ends[i][::-1]):
-            if here in near and i != edge:
-                near[here][other] = i
-    found = []
-    for middle in sorted(near[source].keys() & near[target].keys() - {source, target}):
-        first, second = near[source][middle], near[target][middle]
+        for shape, other in (ends[i], ends[i][::-1]):
+            if shape in edges_at and i != edge:
+                edges_at[shape][other] = i
+    paths = []
+    for middle in sorted(edges_at[source].keys() & edges_at[target].keys() - {source, target}):
+        first, second = edges_at[source][middle], edges_at[target][middle]
         steps = (CycleStep(first, 0, ends[first][0] == source), CycleStep(second, 0, ends[second][0] == middle))
-        found.append((min(maps[first][0].score, maps[second][0].score), CyclePath(steps, (middle,))))
-    found.sort(key=lambda item: -item[0])
-    return [path for _, path in found[:3]]
+        paths.append((min(maps[first][0].score, maps[second][0].score), CyclePath(steps, (middle,))))
+    paths.sort(key=lambda item: -item[0])
+    return [path for _, path in paths[:3]]
 
 
 def _synchronize(
     count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]]
 ) -> tuple[np.ndarray, SyncResult]:
-    """Chirality, and the synchronization of candidates; those that contradict the chirality lose their odds."""
+    """Return chirality and synchronization; candidates that contradict the chirality lose their odds."""
     offered = [candidate_maps(several) for several in maps]
     signs = np.ones(count, dtype=np.int64)
     if any(one.reversed for several in maps for one in several):
@@ -271,25 +267,25 @@ def _synchronize(
 
 
 def chirality(
-    count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: Iterable[float]
+    count: int, ends: Sequence[tuple[int, int]], preserves: Sequence[bool], weights: Iterable[float]
 ) -> np.ndarray:
-    """Return 1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
+    """Return 1 or -1 for each shape, (n,) int64: maps between equal signs keep orientation, others reverse it.
 
-    The pairs that agree should have the largest sum of ``weights``: the leading eigenvector of the signed graph gives
-    first signs (synchronisation over the group of two; Singer 2011), and shapes change theirs while the sum grows.
+    The sum of ``weights`` over pairs that agree is maximised: the leading eigenvector of the signed graph gives initial
+    signs (synchronisation over the group of two; Singer 2011), which change one by one while the sum grows.
 
-    ``count``: number of shapes; ``ends``, ``kept`` and ``weights``: of each pair its shapes, whether its map keeps
+    ``count``: number of shapes; ``ends``, ``preserves`` and ``weights``: of each pair its shapes, whether its map keeps
     orientation, and how sure that is, not negative. Where pairs join shapes, the one with the lowest number has 1.
     """
     signed = np.zeros((count, count))
-    for (a, b), same, w in zip(ends, kept, weights, strict=True):
-        signed[a, b] += w if same else -w
-        signed[b, a] += w if same else -w
+    for (a, b), keeps, w in zip(ends, preserves, weights, strict=True):
+        signed[a, b] += w if keeps else -w
+        signed[b, a] += w if keeps else -w
     part = component_labels(count, *np.nonzero(signed))[1]
     signs, first = np.ones(count, dtype=np.int64), np.zeros(count, dtype=np.int64)
-    for own in (np.flatnonzero(part == number) for number in np.unique(part)):
-        leading = np.linalg.eigh(signed[np.ix_(own, own)])[1][:, -1]
-        signs[own], first[own] = np.where(leading < -1e-12, -1, 1), own[0]
+    for members in (np.flatnonzero(part == number) for number in np.unique(part)):
+        leading = np.linalg.eigh(signed[np.ix_(members, members)])[1][:, -1]
+        signs[members], first[members] = np.where(leading < -1e-12, -1, 1), members[0]
     for _ in range(100):  # signs that are changed at most
         gain = -signs * (signed @ signs)
         worst = int(gain.argmax())

@@ -1,4 +1,4 @@
-"""Score the maps of one pair by themselves: the evidence that synchronization starts from."""
+"""Score the maps of one pair by themselves, as evidence for the synchronization."""
 
 from __future__ import annotations
 
@@ -25,38 +25,39 @@ StoredMap = tuple[np.ndarray, bool]
 
 @dataclass(frozen=True, eq=False)
 class ScoredMap:
-    """One map of a pair with its own evidence."""
+    """One map of a pair with its score."""
 
-    # (k, k): its functional map, source → target, of :data:`kfmaps.collection.synchronization.N_FUNCTIONS` functions.
-    map: np.ndarray
+    map: np.ndarray  # (k, k): functional map, source → target, with ``k`` = N_FUNCTIONS or fewer
     score: float  # :attr:`kfmaps.matching.score.Quality.score`
-    orientation: float  # 1 where it is kept, -1 where it is reversed; of what the map claims to be
-    reversed: bool = False  # whether it claims to be a map to the target's mirror image
+    orientation: float  # 1 where it is as the map claims, -1 where it is reversed
+    reversed: bool = False  # whether the map claims to lead to the target's mirror image
 
 
 def score_pair_maps(
     maps: Sequence[StoredMap], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
 ) -> list[ScoredMap]:
-    """Score maps of one pair, on its cleaned shapes, by the ``samples`` of both; ``shapes``: source and target.
+    """Score maps of one pair on its cleaned ``shapes``, source and target, by the ``samples`` of both.
 
-    Each is refined on the samples first, as candidates of a search are: then a map that was finished on all vertices
-    and one that was not are comparable, and scores mean what they mean there.
+    Each map is refined on the samples first, as candidates of a search are. So scores are those of a search, whether or
+    not a map was refined on all vertices.
     """
-    across = reindexing(*shapes)
-    k = min(FINE, len(across.source.basis.eigenvalues), len(across.target.basis.eigenvalues))
-    bases = across.source.basis.truncate(k), across.target.basis.truncate(k)
-    points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
-    rough = [to_numpy(to_functional(one, *bases)) for one in points]
-    found: dict[int, ScoredMap] = {}
-    for back in sorted({turned for _, turned in maps}):
-        on = build_sample_pair(samples[0], mirror_samples(samples[1]) if back else samples[1])
-        rows = [i for i, (_, turned) in enumerate(maps) if turned == back]
-        weights = (FINE_WEIGHTS[0][0] if on.descriptor_cost is not None else 0.0, 0.0)
-        settled = refine_batch([Start("", rough[i], weights=weights) for i in rows], on, (max(k // 2, 2), k))
-        for i, one in zip(rows, settled, strict=True):
+    reindexed = reindexing(*shapes)
+    k = min(FINE, len(reindexed.source.basis.eigenvalues), len(reindexed.target.basis.eigenvalues))
+    bases = reindexed.source.basis.truncate(k), reindexed.target.basis.truncate(k)
+    points = [reindexed.part_s.to_clean[one[reindexed.part_t.to_original]] for one, _ in maps]
+    functional_maps = [to_numpy(to_functional(one, *bases)) for one in points]
+    scored: dict[int, ScoredMap] = {}
+    for mirrored in sorted({is_reversed for _, is_reversed in maps}):
+        pair = build_sample_pair(samples[0], mirror_samples(samples[1]) if mirrored else samples[1])
+        rows = [i for i, (_, is_reversed) in enumerate(maps) if is_reversed == mirrored]
+        weights = (FINE_WEIGHTS[0][0] if pair.descriptor_cost is not None else 0.0, 0.0)
+        refined = refine_batch(
+            [Start("", functional_maps[i], weights=weights) for i in rows], pair, (max(k // 2, 2), k)
+        )
+        for i, one in zip(rows, refined, strict=True):
             C = one.functional_map[:N_FUNCTIONS, :N_FUNCTIONS]
-            found[i] = ScoredMap(C, one.quality.score, one.quality.orientation, back)
-    return [found[i] for i in range(len(maps))]
+            scored[i] = ScoredMap(C, one.quality.score, one.quality.orientation, mirrored)
+    return [scored[i] for i in range(len(maps))]
 
 
 def with_better_score(one: ScoredMap, other: ScoredMap) -> ScoredMap:
@@ -67,25 +68,26 @@ def with_better_score(one: ScoredMap, other: ScoredMap) -> ScoredMap:
 
 
 def is_same_map(one: ScoredMap, other: ScoredMap) -> bool:
-    """Return whether two candidates of a pair are one map but for details."""
+    """Return whether two candidates of a pair are the same map up to details."""
     return one.reversed == other.reversed and float(((one.map - other.map) ** 2).sum()) / len(one.map) < SCORE.same_map
 
 
 def candidate_maps(maps: Sequence[ScoredMap]) -> tuple[CandidateMap, ...]:
     """Return the maps of one pair as candidates.
 
-    The odds of the best are those that a search would give it (:mod:`kfmaps.matching.score`), at most ``e⁴``; the
-    others are behind by as much as their scores are.
+    The best has the odds that a search would give it (:mod:`kfmaps.matching.score`), at most ``e⁴``; the others are
+    behind by as much as in a search.
     """
-    odds = [_odds(one) for one in maps]
-    best = max(odds)
-    over = max(best - MAX_LOG_ODDS, 0.0)
+    all_log_odds = [_odds(one) for one in maps]
+    best = max(all_log_odds)
+    excess = max(best - MAX_LOG_ODDS, 0.0)
     return tuple(
-        CandidateMap(one.map, max(own - over, -MAX_LOG_ODDS), one.reversed) for one, own in zip(maps, odds, strict=True)
+        CandidateMap(one.map, max(log_odds - excess, -MAX_LOG_ODDS), one.reversed)
+        for one, log_odds in zip(maps, all_log_odds, strict=True)
     )
 
 
 def _odds(one: ScoredMap) -> float:
-    chance = min(max(probability(one.score, math.inf), 1e-12), 1 - 1e-12)
-    own = math.log(chance) - math.log1p(-chance)
-    return own - 2 * MAX_LOG_ODDS if one.orientation < SCORE.min_orientation else own
+    p = min(max(probability(one.score, math.inf), 1e-12), 1 - 1e-12)
+    log_odds = math.log(p) - math.log1p(-p)
+    return log_odds - 2 * MAX_LOG_ODDS if one.orientation < SCORE.min_orientation else log_odds

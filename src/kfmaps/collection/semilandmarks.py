@@ -1,4 +1,4 @@
-"""Semilandmarks: points of curves, whose places along the curve mean nothing until they have been slid."""
+"""Semilandmarks: points of curves, which slide along the curve to become comparable."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def bending_energy_matrix(points: np.ndarray) -> np.ndarray:
     """Return the matrix ``B`` (l, l) of the bending energy of thin-plate splines from landmarks ``points (l, 3)``.
 
     For one coordinate ``y`` of other landmarks, ``yᵀ B y`` is, up to a constant factor, the integral of the squared
-    second derivatives of the spline that takes the landmarks there. It is 0 for an affine map (Bookstein, Principal
+    second derivatives of the spline that maps the landmarks to them. It is 0 for an affine map (Bookstein, Principal
     warps, 1989, with the kernel −|r| of three dimensions).
     """
     free = null_space(np.column_stack([np.ones(len(points)), points]).T)
@@ -26,26 +26,26 @@ def bending_energy_matrix(points: np.ndarray) -> np.ndarray:
 def slide_semilandmarks(
     points: np.ndarray, template: np.ndarray, curves: Sequence[tuple[np.ndarray, bool]]
 ) -> np.ndarray:
-    """Return landmarks, those of curves slid along them until the bending energy from the template is least, (l, 3).
+    """Return landmarks (l, 3) with points of curves slid along them to the least bending energy from the template.
 
     A curve is the cubic spline through its points. Each round is a Gauss-Newton step: the least energy along the
     tangents (Bookstein, Landmark methods for forms without landmarks, 1997; Gunz, Mitteroecker and Bookstein,
-    Semilandmarks in three dimensions, 2005), and then along the curve itself. Landmarks of no curve and the ends of
-    open curves do not move.
+    Semilandmarks in three dimensions, 2005), followed by a step along the curve itself. Landmarks of no curve and the
+    ends of open curves do not move.
 
-    ``points`` and ``template (l, 3)``: landmarks of a specimen and of what it is compared with; NaN for missing ones,
-    which take no part. ``curves``: the landmarks of each curve in order, and whether the last is next to the first.
+    ``points`` and ``template (l, 3)``: landmarks of a specimen and of its reference; missing ones are NaN and do not
+    count. ``curves``: the landmarks of each curve in order, and whether it is closed.
     """
-    there = np.asarray(np.isfinite(points).all(axis=1) & np.isfinite(template).all(axis=1))
-    paths = [_Path(points, rows[there[rows]], closed) for rows, closed in curves if there[rows].sum() > 2]
+    is_present = np.asarray(np.isfinite(points).all(axis=1) & np.isfinite(template).all(axis=1))
+    paths = [_Path(points, rows[is_present[rows]], closed) for rows, closed in curves if is_present[rows].sum() > 2]
     rows = np.concatenate([np.zeros(0, dtype=np.int64), *(path.rows for path in paths)])
-    used = _distinct(template, [*rows, *np.setdiff1d(np.flatnonzero(there), rows)])
+    used = _distinct(template, [*rows, *np.setdiff1d(np.flatnonzero(is_present), rows)])
     if not len(rows) or len(used) < 5:
         return points
     energy = np.zeros((len(points), len(points)))
     energy[np.ix_(used, used)] = bending_energy_matrix(template[used])
     ends = np.cumsum([len(path.rows) for path in paths])[:-1]
-    slid = np.where(there[:, None], points, 0.0)
+    slid = np.where(is_present[:, None], points, 0.0)
     least = float(np.einsum("ia,ij,ja->", slid, energy, slid))
     tolerance = 1e-6  # largest step, in the length of the longest curve, at which the rounds end
     longest = 0.4  # largest step in one round, in the distance to the next point of the curve: points keep their order
@@ -67,11 +67,11 @@ def slide_semilandmarks(
         else:
             break
         slid, least = new, value
-    return np.where(there[:, None], slid, points)
+    return np.where(is_present[:, None], slid, points)
 
 
 class _Path:
-    """A curve of a specimen, and where on it the points lie that slide."""
+    """A curve of a specimen, and the positions of the sliding points on it."""
 
     def __init__(self, points: np.ndarray, rows: np.ndarray, closed: bool) -> None:
         corners = points[np.append(rows, rows[0]) if closed else rows]
@@ -89,12 +89,11 @@ class _Path:
 
 
 def _distinct(points: np.ndarray, rows: Sequence[int]) -> np.ndarray:
-    """Those of ``rows`` that lie apart from the ones before: between two in one place a spline may bend without end."""
-    # Landmarks so near, in the centroid size, count as one, such as one at the end of a curve.
-    coincident = 1e-3
-    near = coincident * np.linalg.norm(points[rows] - points[rows].mean(axis=0)) if rows else 0.0
-    found: list[int] = []
+    """Return those of ``rows`` that do not coincide with earlier ones, where a spline could bend without limit."""
+    coincident = 1e-3  # distance, in centroid sizes, of landmarks that count as one, such as at the end of a curve
+    min_distance = coincident * np.linalg.norm(points[rows] - points[rows].mean(axis=0)) if rows else 0.0
+    distinct: list[int] = []
     for row in rows:
-        if not found or np.linalg.norm(points[found] - points[row], axis=1).min() > near:
-            found.append(row)
-    return np.array(found)
+        if not distinct or np.linalg.norm(points[distinct] - points[row], axis=1).min() > min_distance:
+            distinct.append(row)
+    return np.array(distinct)

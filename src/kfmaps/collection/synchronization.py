@@ -3,9 +3,9 @@
 Each shape gets an orthogonal map from one common latent space, so that all maps through it agree over all cycles
 (Huang, Wang and Guibas, Functional map networks for analyzing and exploring large shape collections, 2014; orthogonal
 maps as in Kovnatsky, Glashoff and Bronstein, MADMM, 2016, and in the synchronization of rotations). Each pair has
-several candidates, of which at most one is right. The latent maps and the probability of each candidate are found
-together by expectation maximization: a candidate counts by how well it fits the latent maps and by its own evidence,
-and the latent maps fit the candidates that count. The tolerance falls slowly, so that at first the majority decides.
+several candidates, at most one of which is right. Expectation maximization gives the latent maps and the probability
+of each candidate. The weight of a candidate depends on how well it fits the latent maps and on its own evidence, and
+the latent maps fit the weighted candidates. The tolerance falls slowly, so that at first the majority decides.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 MAX_LOG_ODDS = 4.0
 """Largest log-odds that a candidate's own evidence counts for."""
 N_FUNCTIONS = 20
-"""Size of the maps that are compared: enough to tell flipped limbs, and few enough to fit other bodies."""
+"""Size of the compared maps: large enough to detect flipped limbs, and small enough for different bodies."""
 _RESIDUAL_LIMITS = (0.15, 0.7)
-"""Least and largest residual from which a candidate is rather wrong. A random map has 1 to 2, a flipped one 0.8 and
-more, right ones between near-isometric bodies 0.02 to 0.1."""
+"""Least and largest limit of the residual above which a candidate is probably wrong. Random maps have 1 to 2, flipped
+ones 0.8 and more, right ones between near-isometric bodies 0.02 to 0.1."""
 OUTLIER_FACTOR = 4.0
-"""Multiple of the median residual of the maps that fit, from which one is rather wrong."""
+"""Multiple of the median residual of the accepted maps that is this limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,11 +44,11 @@ class CandidateMap:
 
 @dataclass(frozen=True, eq=False)
 class Edge:
-    """A pair of shapes, by number, with its candidate maps; the first is the one in use."""
+    """A pair of shapes with its candidate maps."""
 
-    source: int
+    source: int  # numbers of the shapes
     target: int
-    candidates: tuple[CandidateMap, ...]
+    candidates: tuple[CandidateMap, ...]  # the first is the map in use
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,14 +60,14 @@ class SyncResult:
     probabilities: tuple[np.ndarray, ...]
     # Of each edge: ``‖C Y_s − Y_t‖² / k`` of each candidate; 0 where all agrees, 2 for unrelated maps.
     residuals: tuple[np.ndarray, ...]
-    limit: float  # residual from which a candidate is rather wrong
+    limit: float  # residual above which a candidate is probably wrong
     # (n,): connected component of each shape; shapes of different components say nothing about each other.
     component: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class _Problem:
-    """Edges as arrays: ends, stacked candidate maps (c, k, k) and clipped log-odds (c,) of each."""
+    """Edges as arrays: the ends, the stacked candidate maps (c, k, k) and the clipped log-odds (c,) of each."""
 
     count: int
     ends: Sequence[tuple[int, int]]
@@ -85,20 +85,20 @@ class _Problem:
 
     def incident(self) -> list[list[int]]:
         """Return the edges at each shape."""
-        around: list[list[int]] = [[] for _ in range(self.count)]
+        edges: list[list[int]] = [[] for _ in range(self.count)]
         for i, (a, b) in enumerate(self.ends):
-            around[a].append(i)
-            around[b].append(i)
-        return around
+            edges[a].append(i)
+            edges[b].append(i)
+        return edges
 
 
 def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS) -> SyncResult:
-    """Find latent maps of ``count`` shapes, and how probable each candidate of each edge is beside all the others.
+    """Return latent maps of ``count`` shapes, and the probability of each candidate of each edge given all others.
 
-    The result depends neither on the order of the edges nor, but for the basis of the latent space, on the numbers of
-    the shapes. An edge on no cycle keeps the probability that its own evidence gives.
+    The result does not depend on the order of the edges, and only the basis of the latent space depends on the numbers
+    of the shapes. An edge on no cycle keeps the probability of its own evidence.
 
-    ``count``: number of shapes; ``functions``: size ``k`` of the maps that are compared.
+    ``functions``: size ``k`` of the compared maps.
     """
     ends = [(edge.source, edge.target) for edge in edges]
     problem = _Problem(
@@ -108,58 +108,58 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
         [np.clip([c.log_odds for c in edge.candidates], -MAX_LOG_ODDS, MAX_LOG_ODDS) for edge in edges],
     )
     result = _solve(problem, functions)
-    for _ in range(3):  # rounds in which parts of the graph that agree within may be turned as wholes
-        turned = _rejoin(problem, result)
-        if turned is None:
+    for _ in range(3):  # rounds in which consistent parts of the graph may change as wholes
+        rejoined = _rejoin(problem, result)
+        if rejoined is None:
             break
-        result = turned
+        result = rejoined
     return result
 
 
 def _solve(problem: _Problem, functions: int) -> SyncResult:
-    """The most likely of the results that are reached from two starts.
+    """Return the more likely of the results from two initialisations.
 
-    A spanning tree may begin with a wrong pair, and eigenvectors may live on parts that hang together loosely.
+    A spanning tree may use a wrong pair, and eigenvectors may be confined to loosely connected parts.
     """
-    reached = [_anneal(problem, start(problem, functions)) for start in (_spanning_tree_init, _spectral_init)]
-    limit = max(one.limit for one in reached)
-    return reached[int(np.argmax([round(problem.log_likelihood(one.residuals, limit), 6) for one in reached]))]
+    results = [_anneal(problem, start(problem, functions)) for start in (_spanning_tree_init, _spectral_init)]
+    limit = max(one.limit for one in results)
+    return results[int(np.argmax([round(problem.log_likelihood(one.residuals, limit), 6) for one in results]))]
 
 
 def _spanning_tree_init(problem: _Problem, functions: int) -> np.ndarray:
-    """Return latent maps along the spanning tree of the pairs whose best candidates have the best odds, (n, k, k)."""
+    """Return latent maps (n, k, k) along the spanning tree of the pairs with the best odds."""
     count = problem.count
     latent = np.tile(np.eye(functions), (count, 1, 1))
     weight = np.full((count, count), np.inf)
     best: dict[tuple[int, int], np.ndarray] = {}
-    for (a, b), C, own in zip(problem.ends, problem.maps, problem.log_odds, strict=True):
-        number = int(np.argmax(own))
-        cost = 1.0 + MAX_LOG_ODDS - float(own[number])
+    for (a, b), C, log_odds in zip(problem.ends, problem.maps, problem.log_odds, strict=True):
+        number = int(np.argmax(log_odds))
+        cost = 1.0 + MAX_LOG_ODDS - float(log_odds[number])
         if cost < weight[a, b]:
             weight[a, b] = weight[b, a] = cost
             best[a, b], best[b, a] = C[number], C[number].T
     tree = minimum_spanning_tree(np.where(np.isfinite(weight), weight, 0.0))
-    seen = np.zeros(count, dtype=bool)
+    is_visited = np.zeros(count, dtype=bool)
     for root in range(count):
-        if seen[root]:
+        if is_visited[root]:
             continue
         order, before = breadth_first_order(tree, root, directed=False)
         for v in order:
-            seen[v] = True
+            is_visited[v] = True
             if v != root:
                 latent[v] = nearest_orthogonal(best[before[v], v] @ latent[before[v]])
     return latent
 
 
 def _spectral_init(problem: _Problem, functions: int) -> np.ndarray:
-    """Return latent maps from the leading eigenvectors of all pairs' maps together, each rounded, (n, k, k).
+    """Return latent maps (n, k, k) from the leading eigenvectors of all pairs' maps, each made orthogonal.
 
-    Of ``D^{-1/2} W D^{-1/2}`` with blocks ``Σ_c p_c C`` and the shapes' degrees ``D``.
+    The matrix is ``D^{-1/2} W D^{-1/2}`` with blocks ``Σ_c p_c C`` and the shapes' degrees ``D``.
     """
     blocks: dict[tuple[int, int], np.ndarray] = {}
     degree = np.zeros(problem.count)
-    for (a, b), C, own in zip(problem.ends, problem.maps, problem.log_odds, strict=True):
-        p = np.exp(own) / (1.0 + np.exp(own).sum())
+    for (a, b), C, log_odds in zip(problem.ends, problem.maps, problem.log_odds, strict=True):
+        p = np.exp(log_odds) / (1.0 + np.exp(log_odds).sum())
         mean = np.tensordot(p, C, axes=1)
         for row, column, one in ((b, a, mean), (a, b, mean.T)):
             blocks[row, column] = blocks.get((row, column), np.zeros_like(one)) + one
@@ -176,7 +176,7 @@ def _spectral_init(problem: _Problem, functions: int) -> np.ndarray:
     if size <= 1500:  # unknowns up to which eigenvectors are worked out densely
         vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
     else:
-        # Where all maps agree the largest eigenvalue has all of them, and that of a long cycle has many close to it.
+        # Where all maps agree the largest eigenvalue is multiple, and on a long cycle many others are close to it.
         matrix = csr_array(eye_array(size) - whole)
         vectors = smallest_eigenpairs(matrix, np.ones(size), functions, tolerance=1e-6).vectors
     parts = vectors.reshape(problem.count, functions, functions)
@@ -184,7 +184,7 @@ def _spectral_init(problem: _Problem, functions: int) -> np.ndarray:
 
 
 def _anneal(problem: _Problem, latent: np.ndarray) -> SyncResult:
-    """The result that is reached from ``latent (n, k, k)`` as the tolerance falls."""
+    """Return the result from the initial ``latent (n, k, k)`` while the tolerance falls."""
     limit = _RESIDUAL_LIMITS[1]
     chances = problem.probabilities([np.zeros(len(o)) for o in problem.log_odds], limit, 1.0)
     n_levels = 8  # steps in which the tolerance falls
@@ -195,7 +195,7 @@ def _anneal(problem: _Problem, latent: np.ndarray) -> SyncResult:
             limit = float(np.clip(OUTLIER_FACTOR * np.median(typical), *_RESIDUAL_LIMITS))
         else:
             limit = _RESIDUAL_LIMITS[1]
-        # At first the tolerance is that of any map, at last a third of the limit.
+        # The tolerance falls from 1, which admits any map, to a third of the limit.
         spread = limit / 3 + (1.0 - limit / 3) * (1 - level / (n_levels - 1)) ** 2
         chances = problem.probabilities(residuals, limit, spread)
         latent = _sweep(problem, latent, chances)
@@ -203,10 +203,10 @@ def _anneal(problem: _Problem, latent: np.ndarray) -> SyncResult:
 
 
 def _refine(problem: _Problem, latent: np.ndarray, limit: float) -> SyncResult:
-    """The result that is reached from ``latent (n, k, k)`` when only maps within ``limit`` count."""
-    for _ in range(5):  # rounds in which shapes may take what one of their edges says instead of the mean of all
-        latent, moved = _reassign(problem, latent, limit)
-        if not moved:
+    """Return the result from the initial ``latent (n, k, k)`` when only maps within ``limit`` count."""
+    for _ in range(5):  # rounds in which a shape may take the proposal of one edge instead of the mean of all
+        latent, has_changed = _reassign(problem, latent, limit)
+        if not has_changed:
             break
         latent = _sweep(problem, latent, problem.probabilities(problem.residuals(latent), limit, limit / 3))
     residuals = problem.residuals(latent)
@@ -216,17 +216,17 @@ def _refine(problem: _Problem, latent: np.ndarray, limit: float) -> SyncResult:
 
 
 def _rejoin(problem: _Problem, result: SyncResult) -> SyncResult | None:
-    """Turn whole parts of the graph against each other, each as one shape; ``None`` where that gains nothing.
+    """Change consistent parts of the graph against each other, each as a whole; ``None`` where that gains nothing.
 
-    One wrong pair of the tree sets all behind it apart, and no shape alone can come back over the border: the pairs
-    with its own side hold it. A part turned as a whole, ``Y_v Z`` for all its shapes, keeps its own pairs as they are.
-    Parts are what pairs that are believed join, bridges left out.
+    One wrong pair of the spanning tree can give a whole part of the graph wrong maps. No single shape can change, since
+    the pairs within its part hold it. A change ``Y_v Z`` of the whole part does not affect the pairs within. The parts
+    are connected components of the accepted pairs, without bridges.
     """
     limit, ends = result.limit, problem.ends
-    believed = [pair for pair, p in zip(ends, result.probabilities, strict=True) if p[-1] < 0.5]
-    single = bridges(problem.count, believed)
-    own = np.array([pair for pair in believed if pair not in single], dtype=np.int64).reshape(-1, 2)
-    parts, part = component_labels(problem.count, own[:, 0], own[:, 1])
+    accepted = [pair for pair, p in zip(ends, result.probabilities, strict=True) if p[-1] < 0.5]
+    bridge_pairs = bridges(problem.count, accepted)
+    reliable = np.array([pair for pair in accepted if pair not in bridge_pairs], dtype=np.int64).reshape(-1, 2)
+    parts, part = component_labels(problem.count, reliable[:, 0], reliable[:, 1])
     across = [i for i, (a, b) in enumerate(ends) if part[a] != part[b]]
     if parts == 1 or not across:
         return None
@@ -240,62 +240,62 @@ def _rejoin(problem: _Problem, result: SyncResult) -> SyncResult | None:
     before = problem.log_likelihood(result.residuals, limit) + 1e-6
     if problem.log_likelihood(problem.residuals(latent), limit) <= before:
         return None
-    turned = _refine(problem, latent, limit)
-    return turned if problem.log_likelihood(turned.residuals, limit) > before else None
+    refined = _refine(problem, latent, limit)
+    return refined if problem.log_likelihood(refined.residuals, limit) > before else None
 
 
 def _reassign(problem: _Problem, latent: np.ndarray, limit: float) -> tuple[np.ndarray, bool]:
-    """Give each shape in turn the map that one candidate of its edges says, where that explains its edges better."""
-    latent, moved = latent.copy(), False
+    """Give each shape in turn the map that a candidate of its edges proposes, where its edges become more likely."""
+    latent, has_changed = latent.copy(), False
     ends, maps = problem.ends, problem.maps
 
-    def worth(v: int, near: list[int], Y: np.ndarray) -> float:
+    def log_likelihood(v: int, incident: list[int], Y: np.ndarray) -> float:
         total = 0.0
-        for i in near:
+        for i in incident:
             pair = (Y, latent[ends[i][1]]) if ends[i][0] == v else (latent[ends[i][0]], Y)
             total += _log_likelihood(map_residuals(maps[i], *pair), problem.log_odds[i], limit)
         return total
 
-    for v, near in enumerate(problem.incident()):
-        best, most = latent[v], worth(v, near, latent[v])
-        for i in near:
+    for v, incident in enumerate(problem.incident()):
+        best, best_value = latent[v], log_likelihood(v, incident, latent[v])
+        for i in incident:
             forward = ends[i][1] == v
             other = latent[ends[i][0] if forward else ends[i][1]]
             for C in maps[i]:
-                said = nearest_orthogonal((C if forward else C.T) @ other)
-                if (value := worth(v, near, said)) > most + 1e-6:
-                    best, most = said, value
-        moved = moved or best is not latent[v]
+                proposal = nearest_orthogonal((C if forward else C.T) @ other)
+                if (value := log_likelihood(v, incident, proposal)) > best_value + 1e-6:
+                    best, best_value = proposal, value
+        has_changed = has_changed or best is not latent[v]
         latent[v] = best
-    return latent, moved
+    return latent, has_changed
 
 
 def _sweep(problem: _Problem, latent: np.ndarray, chances: Sequence[np.ndarray]) -> np.ndarray:
-    """Give each shape the orthogonal map that fits its neighbours' best, again and again, (n, k, k)."""
+    """Return latent maps (n, k, k) after sweeps in which each shape gets the map that best fits its neighbours."""
     latent = latent.copy()
     mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, problem.maps, strict=True)]
-    around = problem.incident()
+    incident = problem.incident()
     for _ in range(6):  # sweeps over all shapes at each tolerance
-        for v, near in enumerate(around):
-            pull = np.zeros(latent.shape[1:])
-            for i in near:
+        for v, edges in enumerate(incident):
+            target = np.zeros(latent.shape[1:])
+            for i in edges:
                 a, b = problem.ends[i]
-                pull += mean[i] @ latent[a] if b == v else mean[i].T @ latent[b]
-            if np.linalg.norm(pull) > 1e-9:
-                latent[v] = nearest_orthogonal(pull)
+                target += mean[i] @ latent[a] if b == v else mean[i].T @ latent[b]
+            if np.linalg.norm(target) > 1e-9:
+                latent[v] = nearest_orthogonal(target)
     return latent
 
 
 def _log_likelihood(residuals: np.ndarray, log_odds: np.ndarray, limit: float) -> float:
-    """How well an edge is explained: the logarithm of what :func:`_probabilities` divides by."""
+    """Return the log-likelihood of an edge: the logarithm of the denominator in :func:`_probabilities`."""
     return float(np.logaddexp.reduce(np.append(log_odds - 3 * (residuals - limit) / limit, 0.0)))
 
 
 def _probabilities(residuals: np.ndarray, log_odds: np.ndarray, limit: float, spread: float) -> np.ndarray:
-    """Probability of each candidate and of none, (c + 1,); a single one with residual ``limit`` keeps its own odds."""
+    """Return the probability of each candidate and of none, (c + 1,); at residual ``limit`` the own odds count."""
     logits = np.append(log_odds - (residuals - limit) / spread, 0.0)
-    grown = np.exp(logits - logits.max())
-    return grown / grown.sum()
+    weights = np.exp(logits - logits.max())
+    return weights / weights.sum()
 
 
 def map_residuals(maps: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarray:

@@ -98,7 +98,7 @@ class Model(torch.nn.Module):
         with torch.no_grad():
             samples = [self.transform(pair.samples).numpy() for pair in pairs]
         gammas: list[Any] = [resolve_kernel(kernel, X, config.bandwidth_scale) for X in samples]
-        self._add("log_gamma", np.log(np.median([known.gamma for known in gammas])), "gamma")
+        self._add("log_gamma", np.log(np.median([resolved.gamma for resolved in gammas])), "gamma")
 
     def _add(self, name: str, values: ArrayLike, part: str) -> None:
         tensor = torch.tensor(np.asarray(values), dtype=torch.float64)

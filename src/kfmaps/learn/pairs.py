@@ -116,8 +116,8 @@ def _truth(
     lines = np.random.default_rng(0).choice(len(true_s), min(_MAX_CORRESPONDENCES, len(true_s)), replace=False)
     true_s, true_t = (side[np.sort(lines)] for side in (true_s, true_t))
     points_s, points_t = (
-        nearest(shape.mesh.vertices[side], shape.mesh.vertices[kept])
-        for shape, side, kept in zip((source, target), (true_s, true_t), points, strict=True)
+        nearest(shape.mesh.vertices[side], shape.mesh.vertices[rows])
+        for shape, side, rows in zip((source, target), (true_s, true_t), points, strict=True)
     )
     distances = _distances(source.mesh, true_s)
     distances = distances if len(points[0]) == distances.shape[1] else distances[:, points[0]]
@@ -129,8 +129,8 @@ _KEPT: WeakKeyDictionary[Mesh, dict[bytes, np.ndarray]] = WeakKeyDictionary()
 
 def _distances(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
     """Return geodesic distances ``(m, n)`` float32, kept as long as the mesh: it is the source of many pairs."""
-    kept = _KEPT.setdefault(mesh, {})
+    cache = _KEPT.setdefault(mesh, {})
     key = sources.tobytes()
-    if key not in kept:
-        kept[key] = geodesic_distances(mesh, sources).astype(np.float32)
-    return kept[key]
+    if key not in cache:
+        cache[key] = geodesic_distances(mesh, sources).astype(np.float32)
+    return cache[key]

@@ -125,11 +125,11 @@ class _Run:
     def begin(self, state: State | None) -> State:
         """Return the state before learning, or set model and optimizer to the given ``state``."""
         if state is None:
-            now = self.parameters()
+            parameters = self.parameters()
             with torch.no_grad():
-                loss = self.mean("training pairs", self.pairs, lambda *known: float(pair_loss(*known)))
+                loss = self.mean("training pairs", self.pairs, lambda *arguments: float(pair_loss(*arguments)))
             first = Epoch(0, loss, self.judge(loss), time.perf_counter() - self.begun)
-            return State(now, now, self.optimizer.state_dict(), (first,))
+            return State(parameters, parameters, self.optimizer.state_dict(), (first,))
         self.model.load_state_dict(state.parameters)
         self.optimizer.load_state_dict(state.optimizer)
         self.begun -= state.history[-1].seconds
@@ -153,12 +153,12 @@ class _Run:
         self.progress(f"epoch {number}", 1.0)
         loss = total / len(order)
         try:
-            judged = self.judge(loss)
+            held_out = self.judge(loss)
         except (NotConverged, InvalidInput, RuntimeError) as error:
             raise _stopped(error, "held out", state) from error
-        last = Epoch(number, loss, judged, time.perf_counter() - self.begun)
+        last = Epoch(number, loss, held_out, time.perf_counter() - self.begun)
         now = self.parameters()
-        best = now if judged < state.best_epoch.held_out else state.best
+        best = now if held_out < state.best_epoch.held_out else state.best
         optimizer = self.optimizer.state_dict()
         return replace(state, parameters=now, best=best, optimizer=optimizer, history=(*state.history, last))
 
@@ -268,12 +268,12 @@ def load(path: str | Path) -> tuple[State, str, JsonObject]:
 def learning_figure(history: Sequence[Epoch]) -> Figure:
     """Draw the training loss and the held-out error by epoch of a ``history``; a ring marks the epoch that was kept."""
     figure = Figure(figsize=(5.5, 4.2), facecolor="white", layout="constrained")
-    numbers, kept = [epoch.number for epoch in history], min(history, key=lambda epoch: epoch.held_out)
+    numbers, best = [epoch.number for epoch in history], min(history, key=lambda epoch: epoch.held_out)
     rows = (("training loss × 100", "loss"), ("held-out error × 100", "held_out"))
     for ax, color, (name, field) in zip(figure.subplots(2, 1, sharex=True), COLORS, rows, strict=False):
         ax.plot(numbers, [100 * getattr(epoch, field) for epoch in history], color=color, marker=".")
         if field == "held_out":
-            ax.plot([kept.number], [100 * kept.held_out], "o", color=color, markersize=10, fillstyle="none")
+            ax.plot([best.number], [100 * best.held_out], "o", color=color, markersize=10, fillstyle="none")
             ax.set_xlabel("epoch", fontsize=10, color=TEXT)
         ax.xaxis.get_major_locator().set_params(integer=True)
         ax.set_ylabel(name, fontsize=10, color=TEXT)

@@ -26,14 +26,14 @@ from kfmaps.batch.transfer_landmarks import (
     REVIEWED,
     SpecimenLandmarks,
     Template,
-    carry_templates,
     correct_landmarks,
     correct_points,
     corrected_pairs,
     drop_unsure,
-    given_landmarks,
+    propagate_landmarks,
     read_templates,
     template_errors,
+    template_landmarks,
     template_pairs,
 )
 from kfmaps.cli.commands.batch import FAILED, INTERRUPTED, describe_plan, parse_workers
@@ -158,8 +158,8 @@ def transfer(
             raise refuse("--keep", f"the name of a scan in {scans}", repr(name), "check the spelling")
     corrections = read_corrections(output)
     templates = [
-        replace(specimen, points=correct_points(specimen.points, corrections.get(specimen.specimen, {}), specimen.mesh))
-        for specimen in templates
+        replace(one, points=correct_points(one.points, corrections.get(one.specimen, {}), one.mesh))
+        for one in templates
     ]
     corrected = corrected_pairs(templates, collection, corrections, output / MATCHES / "corrected")
     collection = replace(collection, landmarks={}, pair_landmarks=corrected)
@@ -173,29 +173,26 @@ def transfer(
     if batch_result.interrupted:
         raise typer.Exit(INTERRUPTED)
     results = {r.pair: r for r in batch_result.results}
-    template_landmarks = {specimen.specimen: given_landmarks(specimen) for specimen in templates}
+    own = {one.specimen: template_landmarks(one) for one in templates}
     study = []
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # the results have them
-        for name in dict.fromkeys([*template_landmarks, *collection.shapes]):  # templates first, in the order given
+        for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
             maps = {pair.source: result for pair, result in results.items() if pair.target == name}
-            specimen = template_landmarks.get(name) or carry_templates(
-                templates, name, collection.shapes[name], maps, plan.folder
-            )
-            study.append(correct_landmarks(specimen, corrections.get(name, {})))
+            path = collection.shapes[name]
+            one = own.get(name) or propagate_landmarks(templates, name, path, maps, plan.folder)
+            study.append(correct_landmarks(one, corrections.get(name, {})))
         errors = template_errors(templates, results, plan.folder)
-        misfits = [specimen for specimen in study if specimen.misfit]
-        study = [replace(specimen, misfit="") if specimen.specimen in (keep or ()) else specimen for specimen in study]
+        misfits = [one for one in study if one.misfit]
+        study = [replace(one, misfit="") if one.specimen in (keep or ()) else one for one in study]
         if min_confidence is not None:
-            study = [drop_unsure(specimen, min_confidence) for specimen in study]
+            study = [drop_unsure(one, min_confidence) for one in study]
         files = write_study(output, study, landmark_suffix(templates[0].file))
         files.append(output / "shape" / "local_differences.csv")
         write_local_differences(files[-1], study, templates[0], results, plan.folder)
     lines = _describe_study(study, templates, errors)
-    for specimen in misfits:
-        outcome_text = (
-            "kept" if specimen.specimen in (keep or ()) else f"left out (--keep {specimen.specimen} keeps it)"
-        )
-        lines.append(f"{specimen.specimen} does not fit the others: {specimen.misfit}; {outcome_text}")
+    for one in misfits:
+        text = "kept" if one.specimen in (keep or ()) else f"left out (--keep {one.specimen} keeps it)"
+        lines.append(f"{one.specimen} does not fit the others: {one.misfit}; {text}")
     lines += map(str, files)
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for line in lines:
@@ -250,21 +247,19 @@ def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Temp
     """Describe the result of a study in a few lines."""
     transferred = [one for one in study if one.verdict and not one.misfit]
     names = templates[0].points.names
-    told = (
-        f"{len(names)} landmarks of {plural(len(templates), 'specimen')} carried to {plural(len(transferred), 'other')}"
-    )
+    counts = plural(len(templates), "specimen"), plural(len(transferred), "other")
+    line = f"{len(names)} landmarks of {counts[0]} carried to {counts[1]}"
     if transferred:
-        sure = np.concatenate([one.points.confidence for one in transferred])
-        told += f", median confidence {np.nanmedian(sure):.2f}" if np.isfinite(sure).any() else ""
-    lines = [told]
-    flagged = Counter(
-        (name, flag) for one in transferred for name, flag in zip(names, one.open_flags, strict=True) if flag
-    )
+        confidence = np.concatenate([one.points.confidence for one in transferred])
+        line += f", median confidence {np.nanmedian(confidence):.2f}" if np.isfinite(confidence).any() else ""
+    lines = [line]
+    flags = [(name, flag) for one in transferred for name, flag in zip(names, one.open_flags, strict=True) if flag]
+    flagged = Counter(flags)
     if flagged:
-        shown = 8  # of the flagged landmarks
-        told = [f"{name} in {plural(count, 'specimen')} ({flag})" for (name, flag), count in flagged.most_common(shown)]
-        told += [f"{len(flagged) - shown} other landmarks"] if len(flagged) > shown else []
-        lines.append(f"{flagged.total()} of {len(names) * len(transferred)} flagged: {'; '.join(told)}")
+        n_named = 8
+        named = [f"{name} in {plural(n, 'specimen')} ({flag})" for (name, flag), n in flagged.most_common(n_named)]
+        named += [f"{len(flagged) - n_named} other landmarks"] if len(flagged) > n_named else []
+        lines.append(f"{flagged.total()} of {len(names) * len(transferred)} flagged: {'; '.join(named)}")
     elif transferred:
         lines.append("none flagged")
     done = Counter(flag for one in study for flag in one.flags if flag in REVIEWED)
