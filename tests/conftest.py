@@ -162,6 +162,7 @@ def workers_here(monkeypatch: pytest.MonkeyPatch) -> None:
     @contextlib.contextmanager
     def local_workers(_count: int | None) -> Iterator[Client]:
         options = {"processes": False, "n_workers": 1, "threads_per_worker": 1, "dashboard_address": None}
+        options["scheduler_kwargs"] = {"dashboard_address": "127.0.0.1:0"}  # another run may have the default port
         with LocalCluster(protocol="inproc://", **options) as cluster, Client(cluster) as client:
             yield client
 

@@ -26,7 +26,7 @@ from kfmaps.kernels.transformed import Metric
 from kfmaps.settings import (
     OPTIONS,
     PRESETS,
-    Chosen,
+    SettingsOptions,
     preset,
     read_settings,
     settings_text,
@@ -79,12 +79,12 @@ def at(config: Config, path: str) -> Any:
 
 def chosen(*words: str, base: Config = FAR) -> Config:
     """The configuration that a command with these options makes of ``base``."""
-    seen: list[Chosen] = []
+    seen: list[SettingsOptions] = []
     app = typer.Typer()
 
     @app.command()
     @with_settings
-    def command(settings: Chosen) -> None:
+    def command(settings: SettingsOptions) -> None:
         seen.append(settings)
 
     result = CliRunner().invoke(app, list(words))

@@ -1,7 +1,7 @@
-"""Settings records: frozen dataclasses whose fields carry their documentation and bounds, and records as plain values.
+"""Settings records: frozen dataclasses whose fields have documentation and bounds, and records as plain values.
 
-A field may hold a plain value, one record, or one of several records; the last is written with its ``kind``, the name
-of the record's class. The same metadata serves the checks, the settings files, the command's options and the manual.
+A field may hold a plain value, one record, or one of several records. The last is written with its ``kind``, the name
+of the record's class. Checks, settings files, the command's options and the manual use the same metadata.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 
-NOTHING = ("none", "all", "automatic")
+NONE_WORDS = ("none", "all", "automatic")
 """Words for ``None``, which TOML does not have."""
 
 Kinds = Mapping[Any, tuple[type, ...]]
@@ -39,15 +39,15 @@ class Setting:
 
     name: str
     hint: Any  # its type
-    default: object  # its default value or what makes it; ``MISSING`` where there is none
-    help: str = ""  # what it means, without the full stop
+    default: object  # its default value or a function that makes it; ``MISSING`` where there is none
+    help: str = ""  # its meaning, without the full stop
     above: float | None = None  # exclusive and inclusive bounds of a number
     low: float | None = None
     high: float | None = None
     below: float | None = None
     none: str = "none"  # the word for ``None`` in settings files
     option: str = ""  # the command's option that sets it; empty where there is none
-    python: bool = False  # whether only Python code can set it, since it holds objects that a settings file cannot name
+    python_only: bool = False  # whether it holds objects that a settings file cannot name
 
     @property
     def types(self) -> tuple[Any, ...]:
@@ -61,7 +61,7 @@ class Setting:
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """The words that it may be, where it is a word."""
+        """The allowed words, where it is a word."""
         return tuple(word for hint in self.types if get_origin(hint) is Literal for word in get_args(hint))
 
     def records(self, kinds: Kinds) -> tuple[type, ...]:
@@ -70,7 +70,7 @@ class Setting:
         return registered or tuple(hint for hint in self.types if isinstance(hint, type) and is_dataclass(hint))
 
     def values(self, kinds: Kinds) -> str:
-        """Return its range or choices in words."""
+        """Return its range or choices as text."""
         records = self.records(kinds)
         words = self.choices or tuple(record.__name__.lower() for record in records if len(records) + self.optional > 1)
         if bool in self.types:
@@ -79,7 +79,7 @@ class Setting:
         return f"{text}, or {self.none}" if self.optional else text
 
     def _span(self) -> str:
-        """The bounds in words."""
+        """Return the bounds as text."""
         if self.above is not None:
             return f"above {self.above:g}"
         if self.high is not None or self.below is not None:
@@ -88,7 +88,7 @@ class Setting:
 
     def check(self, value: object, label: str, remedy: str = "") -> None:
         """Raise :class:`InvalidInput`, beginning with ``label``, when the field cannot have ``value``."""
-        fits, expected, usual_remedy = self._judge(value)
+        fits, expected, usual_remedy = self._expectation(value)
         remedy = remedy or usual_remedy
         if fits or (value is None and self.optional):
             return
@@ -99,8 +99,8 @@ class Setting:
             remedy = f"write {self.name}={example}" if example else remedy
         raise refuse(label, expected + (f", or {self.none}" if self.optional else ""), repr(value)[:80], remedy)
 
-    def _judge(self, value: object) -> tuple[bool, str, str]:
-        """Whether ``value`` fits, what is expected, in words (none of a record), and what to do where it does not."""
+    def _expectation(self, value: Any) -> tuple[bool, str, str]:
+        """Return whether ``value`` fits, the expected value as text (empty for a record), and the remedy."""
         remedy, types = "compare with `kfmaps config`", self.types
         if self.choices:
             fits = isinstance(value, str) and value in self.choices
@@ -111,7 +111,9 @@ class Setting:
             if plain in types:
                 is_number = isinstance(value, number) and not isinstance(value, bool) and math.isfinite(value)
                 span = self._span()
-                return is_number and self._inside(value), f"{words}{span and f', {span}'}", remedy
+                bounds = ((self.above, gt), (self.low, ge), (self.high, le), (self.below, lt))
+                fits = is_number and all(bound is None or holds(value, bound) for bound, holds in bounds)
+                return fits, f"{words}{span and f', {span}'}", remedy
         if str in types:
             return isinstance(value, str), "text", remedy
         if any(get_origin(hint) is tuple for hint in types):
@@ -119,10 +121,6 @@ class Setting:
         records = tuple(hint for hint in types if isinstance(hint, type) and is_dataclass(hint))
         is_custom = len(records) < len(types) and callable(value) and not isinstance(value, type)
         return is_custom or isinstance(value, records), "", remedy
-
-    def _inside(self, value: Any) -> bool:
-        bounds = ((self.above, gt), (self.low, ge), (self.high, le), (self.below, lt))
-        return all(bound is None or holds(value, bound) for bound, holds in bounds)
 
 
 def types_of(hint: object) -> tuple[Any, ...]:
@@ -133,7 +131,7 @@ def types_of(hint: object) -> tuple[Any, ...]:
 def setting(default: Any, help: str = "", **bounds: Any) -> Any:
     """Return a dataclass field with documentation and bounds.
 
-    ``default``: the default value; a class or function makes it anew for each record; ``help``: what it means;
+    ``default``: the default value, or a class or function that makes it for each record; ``help``: its meaning;
     ``bounds``: further attributes of :class:`Setting`.
     """
     metadata = {"help": help, **bounds}
@@ -146,7 +144,7 @@ def setting(default: Any, help: str = "", **bounds: Any) -> Any:
 def settings_record(cls: type[_T]) -> type[_T]:
     """Make ``cls`` a frozen dataclass that checks its fields and lists them in its documentation.
 
-    A class with a ``__post_init__`` of its own calls :func:`check_record` there.
+    A class with its own ``__post_init__`` calls :func:`check_record` there.
     """
     for name, usual in (("__post_init__", check_record), ("__repr__", short_repr)):
         if name not in vars(cls):
@@ -162,7 +160,7 @@ def settings_record(cls: type[_T]) -> type[_T]:
 
 @lru_cache(maxsize=64)
 def settings_of(cls: type) -> Mapping[str, Setting]:
-    """Return the settings of a record class, the fields of any dataclass, by name."""
+    """Return the fields of a record class, or of any dataclass, as settings by name."""
     hints, settings = get_type_hints(cls), {}
     for f in fields(cls):
         default = f.default if f.default is not MISSING else f.default_factory
@@ -179,7 +177,7 @@ def check_record(record: object) -> None:
 def walk(cls: type, kinds: Kinds, path: str = "") -> Iterator[tuple[str, type, Setting]]:
     """Yield ``(path, record class, setting)`` of everything below ``cls``; nested records of the same hint once."""
     for one in settings_of(cls).values():
-        if one.python:
+        if one.python_only:
             continue
         label = f"{path}.{one.name}" if path else one.name
         records = one.records(kinds)
@@ -190,14 +188,14 @@ def walk(cls: type, kinds: Kinds, path: str = "") -> Iterator[tuple[str, type, S
 
 
 def record_as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], str] = repr) -> Any:
-    """Return ``value`` with every record in it as a dictionary of plain values, fit for JSON and TOML.
+    """Return ``value`` with every record in it as a dictionary of plain values for JSON and TOML.
 
-    Records among ``kinds`` carry theirs under ``kind``. An object of the user's own becomes
-    ``{"kind": "callable", "name": …}``, which :func:`update` refuses.
+    Records among ``kinds`` have the key ``kind``. An object of the user becomes ``{"kind": "callable", "name": …}``,
+    which :func:`update` refuses.
     """
     kind = type(value).__name__
     if type(value) is kinds.get(kind) or getattr(type(value), "is_settings_record", False):
-        names = [f.name for f in fields(value) if getattr(value, f.name) or not f.metadata.get("python")]
+        names = [f.name for f in fields(value) if getattr(value, f.name) or not f.metadata.get("python_only")]
         content = {key: record_as_dict(getattr(value, key), kinds, name) for key in names}
         return {"kind": kind, **content} if kind in kinds else content
     if isinstance(value, tuple):
@@ -209,17 +207,17 @@ def record_as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], 
 
 
 def update(record: _T, values: JsonObject, fresh: Any, kinds: Kinds) -> _T:
-    """Return ``record`` with what ``values`` names replaced.
+    """Return ``record`` with the fields in ``values`` replaced.
 
-    Kinds may be written in any case, a record may be named by its kind alone (``kernel = "laplacian"``), and
-    ``"none"``, ``"all"`` and ``"automatic"`` stand for ``None`` where there can be none. A record of another kind than
-    the one in ``record`` begins with what ``fresh`` has there when it is of that kind, and else with its own defaults.
+    Kinds may be written in any case. A kind alone names a record with its defaults (``kernel = "laplacian"``).
+    ``"none"``, ``"all"`` and ``"automatic"`` stand for ``None`` where that is allowed. A record of a new kind starts
+    from the one in ``fresh`` where that has the same kind, else from its defaults.
     """
     return _updated(type(record), values, record, fresh, "", kinds)
 
 
 def _updated(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds: Kinds) -> Any:
-    """A record of class ``cls`` with ``values``, the rest as in ``current`` or by default."""
+    """Return a record of class ``cls`` with ``values``; other fields are as in ``current`` or by default."""
     settings, changes = settings_of(cls), {}
     for name, value in _table(values, path).items():
         if name not in settings:
@@ -239,7 +237,7 @@ def _updated(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds:
 
 def _value(item: Setting, value: Any, current: Any, fresh: Any, label: str, kinds: Kinds) -> Any:
     records = item.records(kinds)
-    if item.optional and (value is None or (isinstance(value, str) and value.lower() in NOTHING)):
+    if item.optional and (value is None or (isinstance(value, str) and value.lower() in NONE_WORDS)):
         return None
     if len(records) == 1 and not item.optional:
         return _updated(records[0], value, current, fresh, label, kinds)
@@ -255,7 +253,7 @@ def _value(item: Setting, value: Any, current: Any, fresh: Any, label: str, kind
 def _one_of(
     records: tuple[type, ...], one: Setting, value: Any, current: Any, fresh: Any, label: str, kinds: Kinds
 ) -> Any:
-    """A record of one of several kinds."""
+    """Return a record of one of several kinds."""
     table = dict(_table({"kind": value} if isinstance(value, str) else value, label))
     by_name = {record.__name__.lower(): record for record in records}
     current_kind = type(current).__name__.lower()
@@ -277,7 +275,7 @@ def _table(value: object, label: str) -> JsonObject:
 
 
 def _tuple(value: object, label: str, depth: int = 0) -> Any:
-    """Nested lists of numbers as tuples; how many there must be is for their record to say."""
+    """Return nested lists of numbers as tuples; their record checks the lengths."""
     if isinstance(value, list | tuple) and depth < 4:
         return tuple(_tuple(item, label, depth + 1) for item in value)
     if depth and type(value) in (int, float):
@@ -288,7 +286,7 @@ def _tuple(value: object, label: str, depth: int = 0) -> Any:
 def short_repr(self: object) -> str:
     """Return a record in one line: the fields that differ from their defaults, arrays by their shapes.
 
-    A dataclass with arrays says ``__repr__ = short_repr``; records of settings have it from :func:`settings_record`.
+    :func:`settings_record` sets it as ``__repr__``; dataclasses with arrays do so themselves.
     """
     parts = []
     for f in fields(cast(Any, self)):
@@ -302,7 +300,7 @@ def short_repr(self: object) -> str:
 
 
 def _shortened(value: object) -> str:
-    """Return a value of a record in a few words."""
+    """Return a short text of a record's value."""
     shape = getattr(value, "shape", None)
     if shape:
         return f"<{' × '.join(f'{n:,}' for n in shape)}>"

@@ -1,6 +1,6 @@
-"""The functions of the package that take files, arrays and other libraries' meshes.
+"""Functions of the package that accept files, arrays and other libraries' meshes.
 
-:mod:`kfmaps.matching.match` computes with meshes alone and knows neither files nor pictures.
+:mod:`kfmaps.matching.match` computes with meshes only.
 """
 
 from __future__ import annotations
@@ -63,30 +63,29 @@ def match(
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
-    Many candidate maps are made and compared (:mod:`kfmaps.matching.search`), and the answer says how sure it is.
-    Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
-    contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
-    one fit is made, in which landmarks settle which way round a symmetric shape goes. Where ``config.partial`` says
-    that one shape is a part of the other, or their boundaries do, it is placed there, and vertices without a
-    counterpart have −1 (:mod:`kfmaps.matching.partial`).
+    Many candidate maps are computed and compared (:mod:`kfmaps.matching.search`), and the result has a probability.
+    Landmarks, if any, guide the candidates and help to choose between them. Landmarks are rejected, and reported, where
+    a map agrees with most of the others and contradicts them. With ``config.search`` of ``None`` there is a single fit,
+    which needs landmarks to resolve symmetries. Where ``config.partial`` or the boundaries say that one shape is a part
+    of the other, it is placed there, and vertices without a counterpart have −1 (:mod:`kfmaps.matching.partial`).
 
     Parameters
     ----------
     source, target : Mesh, Shape, path, (vertices, faces), or an object
         A file, a pair of arrays (n, 3) and (f, 3), one array (n, 3) for a point cloud, or a mesh of trimesh, PyVista,
         meshio or Open3D. A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must
-        come from the same settings of the basis, SHOT and the numbers of functions.
+        have the same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
         ``Config()`` when not given.
     landmarks : (l, 2) whole numbers, a path, or a pair of paths, optional
         Pairs "source vertex, target vertex", 0-based; or the landmarks of either shape, which are paired by name
         (``.mrk.json``, ``.fcsv``, ``.tps``, ``.pts``, ``.csv``, ``.particles``).
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
-        Of the user's own, used beside those that the configuration names.
+        Descriptors of the user, in addition to those of the configuration.
     rng : seed or Generator
-        The same seed gives the same answer.
+        The same seed gives the same result.
     progress : bool or callable, optional
-        ``True`` shows bars (on a terminal and in notebooks; elsewhere lines); a callable is told ``(stage, done)`` with
+        ``True`` shows bars on a terminal and in notebooks, and lines elsewhere. A callable gets ``(stage, done)`` with
         ``done`` from 0 to 1.
 
     Raises
@@ -101,43 +100,43 @@ def match(
     meshes = [as_mesh(shape, name) for shape, name in zip(shapes, ("source", "target"), strict=True)]
     first, second = (one if isinstance(one, Shape) else mesh for one, mesh in zip(shapes, meshes, strict=True))
     pairs = as_landmarks(landmarks, shapes, meshes)
-    with _telling(progress) as report:
+    with _reporting(progress) as report:
         return matching.match(first, second, config, landmarks=pairs, descriptors=descriptors, rng=rng, progress=report)
 
 
 def prepare(
     shape: ShapeLike, config: Config | None = None, *, name: str | None = None, progress: bool | Progress | None = None
 ) -> Shape:
-    """Do the work that depends on one shape alone, so that matching it with many others reuses it.
+    """Compute what depends on one shape alone, so that matches with many others share it.
 
     Parameters
     ----------
     shape : Mesh, path, (vertices, faces), or an object
         As :func:`match` takes them; in any unit.
     config : Config, optional
-        Its basis, descriptor and refinement settings count here.
+        Its basis, descriptor and refinement settings are used.
     name : str, optional
-        How messages call it; by default the file's name.
+        Name in messages; by default the file's name.
     progress : bool or callable, optional
         As in :func:`match`.
 
     Raises
     ------
     InvalidInput
-        When the shape cannot be worked with, or has fewer vertices than eigenfunctions are needed.
+        When the shape cannot be used, or has too few vertices for the eigenfunctions.
     NotConverged
         When the eigensolver misses its tolerance.
     """
     _check_config(config)
     name = name or (Path(shape).name if is_file(shape) else "shape")
-    with _telling(progress) as report:
+    with _reporting(progress) as report:
         return prepared(as_mesh(shape, name), config, name=name, progress=report)
 
 
 def transfer(
     values: ArrayLike, map: MapLike, lost: ArrayLike | None = None, *, source: ShapeLike | None = None
 ) -> np.ndarray:
-    """Carry values from the vertices of the source to those of the target.
+    """Transfer values from the vertices of the source to those of the target.
 
     Parameters
     ----------
@@ -146,15 +145,14 @@ def transfer(
     map : Match, path, PointMap, or (n_t,) whole numbers
         The map.
     lost : optional
-        What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
+        Value of target vertices without a counterpart; by default NaN, −1 for whole numbers, and empty for texts.
     source : as :func:`match` takes it, optional
-        The source's shape. With it floating numbers are mixed between the corners of the triangles that the points of
-        the map lie in, where it has such. A PointMap needs it.
+        With it floating numbers are interpolated where the map has points inside triangles. A PointMap needs it.
 
     Returns
     -------
     (n_t, ...) array
-        Of the same dtype: row j is ``values[target_to_source[j]]``, or the mean of three rows.
+        With the same dtype. Row j is ``values[target_to_source[j]]``, or a weighted mean of three rows.
 
     Raises
     ------
@@ -172,20 +170,20 @@ def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | Poi
     ----------
     source : as :func:`match` takes it
     predicted : Match, path, PointMap, or (q,) whole numbers
-        A map, for all target vertices, or a source vertex for each point that is evaluated. The points of a PointMap
-        are not snapped to vertices.
+        A map, for all target vertices, or a source vertex for each evaluated point. The points of a PointMap are not
+        rounded to vertices.
     true : (q,) whole numbers, PointMap, or a tuple ((q,), (q,)) of whole numbers
         The true source vertex of each target vertex; or corresponding vertices of the source and of the target.
 
     Returns
     -------
     (q,) float64
-        In units of the square root of the source's area. Infinite between components; NaN without a counterpart.
+        In units of the square root of the source's area; infinite between components, NaN without a counterpart.
 
     Raises
     ------
     InvalidInput
-        When the two differ in length, or name vertices that the source does not have.
+        When the two differ in length, or have vertices that the source does not have.
     """
     mesh = as_mesh(source, "source")
     points = predicted if isinstance(predicted, PointMap) else as_map(predicted).target_to_source
@@ -210,7 +208,7 @@ def zoomout(
     step: int = 5,
     samples: int | None = None,
 ) -> Refined:
-    """Refine a functional map by ZoomOut: point map and functional map in turn while the basis grows.
+    """Refine a functional map by ZoomOut: alternate point map and functional map while the basis grows.
 
     Parameters
     ----------
@@ -265,15 +263,15 @@ def render(
     force: bool = False,
     **options: Any,
 ) -> Figure:
-    """Return the picture of a map: the source, the target in its colours, and the error where the truth is given.
+    """Return the figure of a map: the source, the target in its colours, and the error where the truth is given.
 
     Parameters
     ----------
     map : Match, path, PointMap, or (n_t,) whole numbers
     source, target : as :func:`match` takes them, optional
-        By default those of the match, or those that the map's file names.
+        By default those of the match, or those that the map file names.
     output : path, optional
-        Written there as well: .png, .svg or .pdf.
+        File to write as well: .png, .svg or .pdf.
     truth : (n_t,) whole numbers or a tuple ((q,), (q,)) of them, optional
         The true source vertex of each target vertex, −1 where there is none; or corresponding vertices of the source
         and of the target, or the two files of them.
@@ -322,7 +320,7 @@ def view(
     up: str | None = None,
     force: bool = False,
 ) -> Path | None:
-    """Show a map in the browser, in a notebook in its cell, or write the page.
+    """Show a map in the browser, or in the cell of a notebook, or write the page.
 
     Parameters
     ----------
@@ -333,14 +331,14 @@ def view(
     names : (str, str), optional
         Names of the shapes on the page; by default those of their files.
     descriptors : bool
-        Whether to work out descriptors to show, which takes an eigensolve of each shape.
+        Whether descriptors are computed and shown, which takes an eigensolve of each shape.
     up : {"x", "y", "z"}, optional
-        The vertical axis; by default a good side is found.
+        The vertical axis; by default the page chooses a good side.
 
     Returns
     -------
     Path or None
-        The page: one file that needs no network; ``None`` where it is in a cell.
+        The page, one file that needs no network; ``None`` in a notebook's cell.
     """
     from kfmaps.viz.result_pages import in_notebook, open_page, show_in_cell
 
@@ -382,7 +380,7 @@ def map_page(
 
 
 def picture_html(match: Match, description: str) -> str:
-    """Return the picture of a match as an image of HTML, with ``description`` for those who do not see it."""
+    """Return the figure of a match as an HTML image with a ``description``."""
     from kfmaps.viz.result_pages import figure_html
 
     return figure_html(render(match), description)
@@ -393,8 +391,8 @@ def _check_config(config: object) -> None:
         raise refuse("config", "a Config", type(config).__name__, "give kfmaps.Config() or Config.paper(), say")
 
 
-def _telling(progress: bool | Progress | None) -> AbstractContextManager[Progress | None]:
-    """Where the stages report their progress: a bar for True, as long as the context lasts."""
+def _reporting(progress: bool | Progress | None) -> AbstractContextManager[Progress | None]:
+    """Return a context with the progress callback: bars for ``True``, else ``progress`` itself."""
     if progress is True:
         return Stages()
     return nullcontext(progress or None)

@@ -1,4 +1,4 @@
-"""Settings from presets, files, the command line's options and ``NAME=VALUE`` texts, the later over the earlier."""
+"""Settings from presets, files, options of the command and ``NAME=VALUE`` texts; later ones override earlier ones."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ from kfmaps._records import JsonObject, Setting, record_as_dict, settings_of, wa
 from kfmaps.config import FORMULATIONS, KINDS, RECORDS, Config, from_dict
 from kfmaps.kernels.kernels import describe_kernel
 
-SUFFIX = ".pt"
-FORMAT = 1
-_WANTED, _REMEDY = "a file that kfmaps learn wrote", "check the path, or learn anew"
+SUFFIX, FORMAT = ".pt", 1
+"""Extension and version of files of ``kfmaps learn``."""
+_EXPECTED, _REMEDY = "a file that kfmaps learn wrote", "check the path, or learn again"
 
 
 def read_learned(path: str | Path) -> JsonObject:
-    """Return what the file holds: tensors and plain values. Nothing in it is ever executed."""
+    """Return the tensors and plain values of a file of ``kfmaps learn``. Nothing in it is ever executed."""
     try:
         import torch
     except ImportError as error:
         remedy = "Install it with: pip install 'kfmaps[learn]', or learn to a .toml file"
         raise MissingDependency(f"{path} needs PyTorch. {remedy}.") from error
     try:
-        # A file that asks for more than tensors and plain values is refused before anything of it runs.
+        # With weights_only PyTorch refuses anything but tensors and plain values.
         content = torch.load(Path(path), map_location="cpu", weights_only=True)
     except OSError as error:
-        raise refuse(f"{path}", _WANTED, error.strerror or str(error), _REMEDY) from error
+        raise refuse(f"{path}", _EXPECTED, error.strerror or str(error), _REMEDY) from error
     except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError) as error:
         got = (str(error) or type(error).__name__).splitlines()[0][:120]
-        raise refuse(f"{path}", _WANTED, got, _REMEDY) from error
+        raise refuse(f"{path}", _EXPECTED, got, _REMEDY) from error
     if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("settings"), str):
-        raise refuse(f"{path}", _WANTED, "another content or version", _REMEDY)
+        raise refuse(f"{path}", _EXPECTED, "another content or version", _REMEDY)
     return content
 
 
@@ -59,7 +59,7 @@ def preset(name: str) -> Config:
 
 
 def read_settings(path: str | Path, base: Config | None = None) -> Config:
-    """Return ``base``, by default ``Config()``, with those of a TOML file or a ``.pt`` file of ``kfmaps learn``."""
+    """Return ``base``, by default ``Config()``, with settings of a TOML file or a ``.pt`` file of ``kfmaps learn``."""
     try:
         if Path(path).is_char_device():  # one like /dev/zero never ends
             raise refuse(f"--config {path}", "a settings file", "a device", "check the path")
@@ -79,26 +79,26 @@ def read_settings(path: str | Path, base: Config | None = None) -> Config:
 
 
 def settings_text(config: Config, comments: bool = True) -> str:
-    """Return TOML from which :func:`read_settings` makes ``config`` again, whatever the base.
+    """Return TOML from which :func:`read_settings` restores ``config`` with any base.
 
-    ``comments``: whether each line says what it means.
+    ``comments``: whether each line explains its setting.
     """
     head = ["# Settings of kfmaps match; give them with --config FILE.", ""] if comments else []
     return "\n".join([*head, *_lines(config, "", comments)]) + "\n"
 
 
 def _lines(record: Any, section: str, comments: bool) -> list[str]:
-    """The plain values of a record, then the tables of the records in it."""
+    """Return lines of a record's plain values, then tables of the records in it."""
     kind = type(record).__name__
     lines, tables = [f'kind = "{kind}"'] if kind in RECORDS else [], []
     for one in settings_of(type(record)).values():
         value, path = getattr(record, one.name), f"{section}.{one.name}" if section else one.name
-        if one.python and not value:
+        if one.python_only and not value:
             continue
         if is_dataclass(value):
             tables += ["", f"[{path}]", *_lines(value, path, comments)]
             continue
-        if one.python or callable(value):
+        if one.python_only or callable(value):
             got = describe_kernel(value)
             raise refuse(path, "a record that a settings file can name", got, "write one of kfmaps' own")
         line = f"{one.name} = {text_of(value, one)}"
@@ -106,20 +106,20 @@ def _lines(record: Any, section: str, comments: bool) -> list[str]:
     return lines + tables
 
 
-def text_of(value: object, item_setting: Setting) -> str:
+def text_of(value: object, setting: Setting) -> str:
     """Return a value as TOML."""
     if isinstance(value, tuple):
-        return f"[{', '.join(text_of(item, item_setting) for item in value)}]"
-    return json.dumps(item_setting.none if value is None else record_as_dict(value, {}), ensure_ascii=False)
+        return f"[{', '.join(text_of(item, setting) for item in value)}]"
+    return json.dumps(setting.none if value is None else record_as_dict(value, {}), ensure_ascii=False)
 
 
 def with_assignments(
     base: Config, assignments: Sequence[str], options: Mapping[str, tuple[str, object]] | None = None
 ) -> Config:
-    """Return ``base`` changed by texts like ``"weights.laplacian=0.5"``; of two for one setting the later counts.
+    """Return ``base`` changed by texts like ``"weights.laplacian=0.5"``; the later of two for one setting counts.
 
-    ``assignments``: values are TOML; quotes around words may be left out; ``options``: paths and values by the option
-    that gave them, applied before: ``{"--kernel": ("kernel", "laplacian")}``.
+    ``assignments``: with values in TOML, where quotes around words may be left out; ``options``: paths and values by
+    option, such as ``{"--kernel": ("kernel", "laplacian")}``, which are applied first.
     """
     values = dict(options or {})
     for text in assignments:
@@ -134,18 +134,18 @@ def with_assignments(
         except InvalidInput as error:
             return error
 
-    # All at once, since one value may be right only beside another.
+    # All at once, since a value may be valid only together with another.
     config = build(values)
     if isinstance(config, Config):
         return config
     culprits = [label for label in values if isinstance(build([other for other in values if other != label]), Config)]
     culprits = culprits or [label for label in values if isinstance(build([label]), InvalidInput)]
-    # A pair that contradicts each other is named whole; of several unrelated faults, the first.
+    # Both options of a contradiction are named, else the first fault.
     raise InvalidInput(f"{', '.join(culprits[:2])}: {config}" if culprits else str(config)) from config
 
 
 def similar_settings(option: str) -> list[str]:
-    """Return the paths of the settings that a misspelt or removed ``option`` most likely means, at most three."""
+    """Return the paths of at most three settings that a misspelt or removed ``option`` may mean."""
     words = [word for word in option.strip("-").split("-") if word not in ("no", "")]
     scores = {}
     for path, _, one in walk(Config, KINDS):
@@ -160,7 +160,7 @@ def similar_settings(option: str) -> list[str]:
 
 
 def _nested(assignments: Mapping[str, object]) -> dict[str, object]:
-    """``{"a.b": 1}`` as ``{"a": {"b": 1}}``."""
+    """Return assignments such as ``{"a.b": 1}`` as nested tables, ``{"a": {"b": 1}}``."""
     tree: dict[str, object] = {}
     for path, value in assignments.items():
         *above, last = path.split(".")
@@ -174,7 +174,7 @@ def _nested(assignments: Mapping[str, object]) -> dict[str, object]:
 
 
 def _literal(text: str) -> object:
-    """A TOML value, or the text itself when it is none."""
+    """Return a text as a TOML value, or the text itself when it is none."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except (tomllib.TOMLDecodeError, RecursionError):
@@ -188,18 +188,18 @@ OPTIONS: dict[str, tuple[str, Setting]] = {
 
 
 @dataclass(frozen=True)
-class Chosen:
-    """What the user chose on the command line."""
+class SettingsOptions:
+    """The options of a command that choose settings."""
 
     preset: str | None = None
     file: Path | None = None  # a settings file
     options: Mapping[str, tuple[str, object]] = field(default_factory=dict)  # path and value by option
-    assignments: tuple[str, ...] = ()  # what stood after ``--set``
+    assignments: tuple[str, ...] = ()  # arguments of ``--set``
 
     def config(self, base: Config) -> Config:
         """Return the preset, or else ``base``, changed by the file, the options and ``--set``.
 
-        What a file does not name is as in the preset, or in ``Config()``, whatever the command's ``base``.
+        A file changes the preset or ``Config()``, not the command's ``base``.
         """
         config = base if self.preset is None and self.file is None else preset(self.preset or "default")
         config = config if self.file is None else read_settings(self.file, config)
@@ -207,7 +207,7 @@ class Chosen:
 
 
 def with_settings(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give ``command``, which takes ``settings: Chosen``, all options of a configuration in its place."""
+    """Return ``command`` with all options of a configuration in place of its argument ``settings: SettingsOptions``."""
     signature = inspect.signature(command, eval_str=True)
     keyword = inspect.Parameter.KEYWORD_ONLY
     parameters = [p.replace(kind=keyword) for p in signature.parameters.values() if p.name != "settings"]
@@ -220,10 +220,12 @@ def with_settings(command: Callable[..., Any]) -> Callable[..., Any]:
     def wrapper(**arguments: Any) -> Any:
         values = {option: (path, arguments.pop(option.strip("-"))) for option, (path, _) in OPTIONS.items()}
         options = {option: (path, value) for option, (path, value) in values.items() if value is not None}
-        choice = Chosen(arguments.pop("preset"), arguments.pop("config"), options, tuple(arguments.pop("assign") or ()))
+        choice = SettingsOptions(
+            arguments.pop("preset"), arguments.pop("config"), options, tuple(arguments.pop("assign") or ())
+        )
         return command(settings=choice, **arguments)
 
-    # typing cannot express a signature that is made from a table; Typer reads these two attributes.
+    # Typer reads these two attributes; typing cannot express a signature that is made from a table.
     wrapper.__signature__ = signature.replace(parameters=parameters)  # pyright: ignore[reportAttributeAccessIssue]
     wrapper.__annotations__ = {p.name: p.annotation for p in parameters}
     return wrapper
@@ -234,7 +236,7 @@ def _typer(*names: str, **more: Any) -> Any:
 
 
 def _option(name: str) -> Any:
-    """The annotation of the command's option for one setting; ``None`` means that it was not given."""
+    """Return the annotation of the command's option for one setting; its value is ``None`` where it is not given."""
     one = OPTIONS[name][1]
     number = next((kind for kind in (int, float) if kind in one.types), str)
     values = one.values(KINDS)
@@ -254,4 +256,4 @@ _GENERAL = {
         _typer("--set", metavar="NAME=VALUE", help="Any setting, such as weights.laplacian=0.5; repeatable."),
     ],
 }
-"""The options that stand for many settings."""
+"""Options that choose many settings or any setting."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
 
@@ -35,14 +35,8 @@ class RunSpec:
         """Return plain values without the number of threads, which does not affect results."""
         config = as_dict(self.config)
         del config["threads"]
-        return {
-            "version": kfmaps.__version__,
-            "seed": self.seed,
-            "landmark_lines": list(self.landmark_lines),
-            "landmark_files": self.landmark_files,
-            "identity": self.identity,
-            "config": config,
-        }
+        plain = {f.name: getattr(self, f.name) for f in fields(self)}
+        return {"version": kfmaps.__version__, **plain, "landmark_lines": list(self.landmark_lines), "config": config}
 
     @cached_property
     def digest(self) -> str:

@@ -35,7 +35,7 @@ class Config:
     nystrom: NystromConfig = setting(NystromConfig, "the approximation of the kernel")
     full_kernel: bool = setting(False, "the exact kernel in row blocks (equations 8 and 10 to 12), no Nyström; slow")
     weights: Weights = setting(Weights, "weights of the terms")
-    terms: tuple[Any, ...] = setting((), "further terms, callables (source, target) -> term", python=True)
+    terms: tuple[Any, ...] = setting((), "further terms, callables (source, target) -> term", python_only=True)
     formulation: Formulation = setting(Formulation, "what is asked beside least squares")
     operator_rtol: float = setting(
         1e-3, "part of the multiplication operators' squared norm that may be left out", low=0, below=1

@@ -45,7 +45,7 @@ class DescriptorConfig:
     shot_radius: float = setting(0.09, "radius of SHOT in √area", above=0)
     shot_weight: float = setting(1.0, "weight of SHOT against 1 for all others together", above=0)
     normalisation: Normalisation = setting("variance", "how descriptors are scaled, alike on both shapes")
-    extra: tuple[Any, ...] = setting((), "further descriptors, objects with compute(shape) -> (n, d)", python=True)
+    extra: tuple[Any, ...] = setting((), "further descriptors, objects with compute(shape) -> (n, d)", python_only=True)
 
     def __post_init__(self) -> None:
         check_record(self)

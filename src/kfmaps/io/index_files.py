@@ -12,9 +12,11 @@ from kfmaps.io.atomic import write_text
 from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes, whole_numbers
 
 
-def _read_numbers(path: str | Path, columns: int, first: int, expected: str, partial: bool = False) -> np.ndarray:
-    """Return the whole numbers of a text file, (rows, columns) int64, less ``first``; −1 stays where ``partial``."""
-    name = str(path)
+def _read_numbers(
+    path: str | Path, columns: int, expected: str, one_based: bool | None, partial: bool = False
+) -> np.ndarray:
+    """Return the vertex numbers of a text file, (rows, columns) int64, from 0 on; −1 stays where ``partial``."""
+    name, first = str(path), _first_number(path) if one_based is None else int(one_based)
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
         raise refuse(name, expected, "no numbers", "check that it is the right file")
@@ -52,8 +54,7 @@ def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.nda
     InvalidInput
         On a file that is missing, empty, or has a line of anything else.
     """
-    first = _first_number(path) if one_based is None else int(one_based)
-    return _read_numbers(path, 2, first, "two whole numbers a line, source and target")
+    return _read_numbers(path, 2, "two whole numbers a line, source and target", one_based)
 
 
 def read_landmark_names(path: str | Path) -> list[str]:
@@ -99,8 +100,7 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, part
     ``path``, ``one_based`` and errors are as of :func:`read_landmarks`; ``partial``: whether −1 may stand
     for no vertex. Returns (m,) int64, 0-based.
     """
-    first = _first_number(path) if one_based is None else int(one_based)
-    return _read_numbers(path, 1, first, "one whole number a line", partial)[:, 0]
+    return _read_numbers(path, 1, "one whole number a line", one_based, partial)[:, 0]
 
 
 def write_vertex_numbers(path: str | Path, numbers: np.ndarray, *, force: bool = False) -> None:

@@ -21,7 +21,7 @@ from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent, plural
 from kfmaps.config import Config
 from kfmaps.io.atomic import write_text
-from kfmaps.settings import Chosen, settings_text, with_settings
+from kfmaps.settings import SettingsOptions, settings_text, with_settings
 
 _TOML = "settings.toml"  # in the output folder, for ``kfmaps match --config``
 FAILED, INTERRUPTED = 1, 130
@@ -32,7 +32,7 @@ FAILED, INTERRUPTED = 1, 130
 def batch(
     folder: Annotated[Path, typer.Argument(help="A folder of shapes.", metavar="DIR")],
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.")],
-    settings: Chosen,
+    settings: SettingsOptions,
     pairs: Annotated[Path | None, typer.Option(help="Two names a line; default: the folder's test_pairs.txt.")] = None,
     graph: Annotated[
         str | None,

@@ -11,12 +11,12 @@ from kfmaps.cli.options import Force, Json
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config, as_dict
 from kfmaps.io.atomic import check_output, write_text
-from kfmaps.settings import Chosen, settings_text, with_settings
+from kfmaps.settings import SettingsOptions, settings_text, with_settings
 
 
 @with_settings
 def config(
-    settings: Chosen,
+    settings: SettingsOptions,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Write this file; default: print.")] = None,
     json: Json = False,
     force: Force = False,

@@ -45,7 +45,7 @@ from kfmaps.io import check_output, read_mesh
 from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.settings import Chosen, with_settings
+from kfmaps.settings import SettingsOptions, with_settings
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.landmark_review import ReviewServer
 from kfmaps.viz.page import check_up
@@ -77,7 +77,7 @@ app = typer.Typer(
 def pick(
     source: Annotated[Path, typer.Argument(help="The source mesh.")],
     target: Annotated[Path, typer.Argument(help="The target mesh.")],
-    settings: Chosen,
+    settings: SettingsOptions,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -134,7 +134,7 @@ def transfer(
         ),
     ],
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.")],
-    settings: Chosen,
+    settings: SettingsOptions,
     more: Annotated[list[Path] | None, typer.Argument(hidden=True)] = None,
     min_confidence: Annotated[
         float | None, typer.Option(help="Landmarks below it become missing (NA).", min=0.0, max=1.0)

@@ -22,7 +22,7 @@ from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 from kfmaps.io import atomic_output, check_output, read_mesh, read_vertex_numbers
 from kfmaps.io.atomic import write_text
 from kfmaps.io.text import check_suffix
-from kfmaps.settings import Chosen, settings_text, with_settings
+from kfmaps.settings import SettingsOptions, settings_text, with_settings
 from kfmaps.shape import Shape, prepare
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def learn(
     truth_landmarks: Annotated[
         str, typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,...")
     ],
-    settings: Chosen,
+    settings: SettingsOptions,
     parts: Annotated[str, typer.Option("--learn", metavar="NAMES", help="What to learn.")] = _PARTS,
     shapes: Annotated[str, typer.Option(metavar="PATTERNS", help="Shapes to learn from, as a?,b*.")] = "*",
     held_out: Annotated[

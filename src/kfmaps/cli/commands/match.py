@@ -28,7 +28,7 @@ from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
-from kfmaps.settings import Chosen, with_settings
+from kfmaps.settings import SettingsOptions, with_settings
 from kfmaps.shape import prepare_both
 
 _SIDES = ("source", "target")
@@ -38,7 +38,7 @@ _SIDES = ("source", "target")
 def match(
     source: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="SOURCE")],
     target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET")],
-    settings: Chosen,
+    settings: SettingsOptions,
     landmarks: Annotated[
         list[Path] | None,
         typer.Option(
