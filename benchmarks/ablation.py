@@ -35,6 +35,7 @@ from kfmaps.matching import (
     ranking,
     registration_refine,
     search,
+    search_result,
 )
 from kfmaps.matching import match as matching
 
@@ -54,14 +55,14 @@ PIECES: dict[str, list[Patch]] = {
     "no fine refinement with extremities": [(candidates, "FINE_WEIGHTS", candidates.FINE_WEIGHTS[:1])],
     "no closer look at the first two": [(one, "rerank_close", _first) for one in (ranking, limb_exchange)],
     "no near duplicates": [(search, "rerank_near_duplicates", _first)],
-    "no repairs of extremity matches": [(registration_refine, "PAIRED", 0)],
+    "no repairs of extremity matches": [(registration_refine, "N_MATCHES", 0)],
     "repairs of the best alone": [
-        (registration_refine, name, n) for name, n in (("FIRST", 1), ("BENT", 1), ("PAIRED", 0))
+        (registration_refine, name, n) for name, n in (("N_REPAIRED", 1), ("N_REGISTERED", 1), ("N_MATCHES", 0))
     ],
     "no repairs": [(search, "refine_by_registration", lambda ranked, *_: (ranked, ()))],
-    "no second finish where torn": [(matching, "_try_others", lambda _task, _found, best: best)],
+    "no second finish where torn": [(matching, "_retry_torn", lambda _task, _found, best: best)],
     "no exchanged limbs": [(search, "compare_exchanged", lambda best, *_, **__: [best])],
-    "no guidance by extremities": [(search, "extremity_vertices", lambda *_: None)],
+    "no guidance by extremities": [(search_result, "extremity_vertices", lambda *_: None)],
     "guidance of 96 components": guided(lambda s, t: guidance.descriptor_guidance(s, t, 96)),
     "Gaussian guidance": guided(kernel_guidance(2.0, 96)),
     "Gaussian guidance of all descriptors": guided(kernel_guidance(1.0, 64, "product")),

@@ -25,7 +25,7 @@ from kfmaps.matching import (
     finish,
     initial_maps,
     landmark_evidence,
-    registration_refine,
+    ranking,
     sample_pair,
 )
 from kfmaps.matching.features import sample_pair_for_fit
@@ -110,7 +110,7 @@ def kernel_guidance(sharpness: float, dimensions: int, kind: str = "SHOT") -> Ca
 
 def guided(made: Callable[..., Any]) -> list[Patch]:
     """The patches that put a guidance into the search and into the refinement after it."""
-    users = (sample_pair, landmark_evidence, registration_refine, finish)
+    users = (sample_pair, landmark_evidence, ranking, finish)
     return [(module, "descriptor_guidance", made) for module in users]
 
 

@@ -16,9 +16,10 @@ from shapes import bumpy_pair
 
 import kfmaps
 from kfmaps.geometry.mesh import Mesh, mirror_mesh
+from kfmaps.matching.orientation import mirror_candidates
 from kfmaps.matching.ranking import ProxyCache, ranking
 from kfmaps.matching.sample_pair import mirrored_pair
-from kfmaps.matching.search import reversed_best, search_map
+from kfmaps.matching.search import search_map
 
 SETS = {"FAUST_r": 3, "SHREC19_r": 3, "TOSCA_r": 3, "catdog": 2}
 """Pairs of each set."""
@@ -32,8 +33,8 @@ def line(name: str, source: Mesh, target: Mesh) -> None:
     found = search_map(*shapes, config)
     state = search_map(*shapes, replace(config, search=replace(config.search, orientation="preserving")))._search
     assert state is not None
-    other = mirrored_pair(state.samples.whole)
-    images = reversed_best(state.found, other)
+    other = mirrored_pair(state.samples.fine)
+    images = mirror_candidates(state.candidates, other)
     best = ranking(images, other, ProxyCache.of(*shapes, other))[0]
     gain = best.score - state.ranked[0].score
     print(f"{name:40} {found.orientation:10} {found.verdict:9} {found.confidence:5.2f} {gain:+7.2f}", flush=True)

@@ -28,7 +28,8 @@ from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.matching import match as matching
 from kfmaps.matching.registration_refine import register_map_on_proxies
-from kfmaps.matching.search import SearchResult, search_map
+from kfmaps.matching.search import search_map
+from kfmaps.matching.search_result import SearchResult
 
 SETS = "FAUST_r,SHREC19_r,TOSCA_r,catdog,TOSCA_nonIsometric_r,SMAL_r,SHREC07,TOPKIDS"
 POINTS = 400
@@ -94,11 +95,11 @@ def candidate(found: SearchResult, of: Judged) -> np.ndarray:
 def registered(found: SearchResult) -> SearchResult:
     """A map found, registered and refined on the proxies that candidates are scored on; the target is registered."""
     state = found._search
-    if state is None or state.copies.coarse is None or found.registered_vertices is not None:
+    if state is None or state.proxies.coarse is None or found.registered_vertices is not None:
         return found
-    shapes = state.source, state.copies.image
+    shapes = state.source, state.proxies.image
     guidance = matching._search_guidance(found, shapes)
-    *_, one = register_map_on_proxies(found.functional_map, state.copies.coarse, guidance, found.landmarks)
+    *_, one = register_map_on_proxies(found.functional_map, state.proxies.coarse, guidance, found.landmarks)
     if one is None:
         return found
     C, vertices = one.functional_map, one.registered_vertices

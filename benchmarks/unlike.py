@@ -25,9 +25,9 @@ from automatic import Job, chosen_pairs, loaded, pair_options
 
 import kfmaps
 from kfmaps.geometry.closest_points import closest_points
+from kfmaps.matching import finish
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
-from kfmaps.matching import search as choose
 from kfmaps.matching.score import SCORE
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import nonrigid_icp as nonrigid
@@ -35,14 +35,14 @@ from kfmaps.registration import nonrigid_icp as nonrigid
 RIGID = replace(alternate.FIT, local_scaling=0.0)
 ONCE = (matching, "SCORE", replace(SCORE, max_torn_area=2.0))
 """More than all of the target is never torn."""
-UNPAIRED = (mending, "PAIRED", 0)
+UNPAIRED = (mending, "N_MATCHES", 0)
 CLOSEST = (
     nonrigid,
     "project_with_contact",
     lambda _points, body, x, target, _normals: closest_points(target.vertices, x, body.mesh.faces),
 )
 KINDS = {
-    "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE, CLOSEST),
+    "as rigid as possible": ((alternate, "FIT", RIGID), (finish, "UNLIKE_LOCAL_SCALING", 0.0), UNPAIRED, ONCE, CLOSEST),
     "stretched evenly": (UNPAIRED, ONCE, CLOSEST),
     "and pairings of tips": (ONCE, CLOSEST),
     "and torn area": (CLOSEST,),

@@ -14,7 +14,7 @@ from kfmaps._arrays import NotConverged
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
-from kfmaps.matching import finish, ranking
+from kfmaps.matching import finish, ranking, search_result
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
@@ -34,7 +34,9 @@ from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.result_groups import MatchRegistration
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, Quality
+from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much
+from kfmaps.matching.search_result import SearchResult
+from kfmaps.matching.search_state import SearchState
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import (
     ProxyPair,
@@ -130,7 +132,7 @@ def test_what_lies_on_itself_differs_nowhere(creatures):
 def test_point_clouds_are_not_bent(creatures):
     source = creatures[0]
     cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
-    on = two_level_samples(source, source, (sample_for_scoring(source, 200), sample_for_scoring(source, 200))).whole
+    on = two_level_samples(source, source, (sample_for_scoring(source, 200), sample_for_scoring(source, 200))).fine
     for shapes in ((replace(source, mesh=cloud), source), (source, replace(source, mesh=cloud))):
         assert ProxyCache.of(*shapes, on).fine is None
     for coarse in ((None, on.target.copy), (on.source.copy, None)):
@@ -139,7 +141,7 @@ def test_point_clouds_are_not_bent(creatures):
 
 def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
     source, target, _ = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     kept, image = ProxyCache.of(source, target, on), ProxyCache.of(source, target, mirrored_pair(on))
     assert kept.coarse is not None
     assert kept.coarse is kept.coarse
@@ -163,7 +165,7 @@ def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
 def test_mending_tells_how_far_it_is(creatures, monkeypatch):
     """Five to ten seconds on real shapes, in which nobody should wonder."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
@@ -182,7 +184,7 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
 def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, monkeypatch):
     """Of the winner alone, and not where a copy falls apart."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     calls, apart = [], []
@@ -223,7 +225,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
 def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeypatch):
     """With their own tips, which what is mended keeps to, and only as long as the copies hold."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     (best, *others) = match_extremities(on.source, on.target, on.descriptor_cost)
@@ -264,7 +266,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
 def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creatures, monkeypatch):
     """The best repair began with an extremity match, all others lag: what is left of it leads nevertheless."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
     good, bad = score_maps([Start("matched", C), Start("before", turned)], on)
@@ -275,9 +277,12 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
             raise NotConverged("it fell apart")
         yield alternate.AlternatingResult(C, where.source.mesh.vertices)
 
+    def plan(setting, near):
+        return [*(mending.Repair(setting, c, None) for c in near), mending.Repair(setting, good, None, False)]
+
     monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=0.01))
     monkeypatch.setattr(mending, "alternating_registration", made)
-    monkeypatch.setattr(mending, "_begin", lambda near, _samples: [*((c, None) for c in near), (good, None)])
+    monkeypatch.setattr(mending, "_plan_repairs", plan)
     ranked = [replace(bad, deformation_energy=1.0)]
     none = np.zeros((0, 2), dtype=np.int64)
     found, _ = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), none)
@@ -287,7 +292,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
 def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
     """It stays a rival that is bent as badly as the worst; what was good before its first round is not given up."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
     good, bad = score_maps([Start("", C), Start("", turned)], on)
@@ -349,7 +354,7 @@ def test_pairings_are_heard_once():
 def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     """As the right map of a body that touches itself."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
     astray = alternate.AlternatingResult(
@@ -374,7 +379,7 @@ def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
 
 def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("rough", rough)], on)]
@@ -421,7 +426,7 @@ def test_the_first_few_are_mended_and_those_that_differ():
 
 def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     torn = truth.copy()
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 6 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
@@ -445,14 +450,14 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     assert rerank_near_duplicates(ranked, [bad, far], on, of, 1, behind=1.0) == ranked
 
 
-def test_a_map_deforms_unduly_or_not():
+def test_a_map_deforms_too_much_or_not():
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), Quality(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     usual = np.exp(
         SCORE.calibration.usual_log_deformation + SCORE.calibration.log_deformation_per_score * one.quality.score
     )
-    assert choose.deforms_unduly(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation + 0.01)))
-    assert not choose.deforms_unduly(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation - 0.01)))
-    assert not choose.deforms_unduly(one)
+    assert deforms_too_much(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation + 0.01)))
+    assert not deforms_too_much(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation - 0.01)))
+    assert not deforms_too_much(one)
 
 
 def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monkeypatch):
@@ -460,15 +465,17 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target)))
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    best = score_maps([Start("best", C)], on.whole)[0]
+    best = score_maps([Start("best", C)], on.fine)[0]
     few = np.where(np.arange(len(best.points)) < len(best.points) // 20, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
-    assert SCORE.duplicate_distance < map_distance(best, alike, on.whole.source) < SCORE.distinct_distance
+    assert SCORE.duplicate_distance < map_distance(best, alike, on.fine.source) < SCORE.distinct_distance
     bends = {"best": 0.12, "alike": 0.06}
     monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
     monkeypatch.setattr(
-        ranking, "with_bending", lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some]
+        ranking,
+        "with_deformation_energy",
+        lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some],
     )
     config = replace(kfmaps.Config(), threads=1)
     assert config.search is not None
@@ -503,7 +510,7 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):
     source, target, truth = creatures
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    other = choose.SearchResult(C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
+    other = SearchResult(C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
     asked = []
     ways: Any = (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
     monkeypatch.setattr(matching, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
@@ -527,12 +534,12 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
     ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / SCORE.w_strain) for i in range(5)]
     twin = replace(one, name="twin", strain=0.5 / SCORE.w_strain)
     setting: Any = None
-    astray = mending.SwappedRepair(setting, twin, None, (0.0, 0.0))
+    astray = mending.SwappedRepair(mending.Repair(setting, twin, None), (0.0, 0.0))
     monkeypatch.setattr(mending.SwappedRepair, "make", lambda _self: None)
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
     monkeypatch.setattr(choose, "refine_by_registration", lambda *_: (ranked, (ranked[2], twin, astray)))
     monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
-    monkeypatch.setattr(choose, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
+    monkeypatch.setattr(search_result, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
     monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
     found = choose.search_map(source, target, kfmaps.Config())
     made = [choose.retry(found, i, -np.inf) for i in range(3)]
@@ -549,9 +556,7 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
 def test_where_the_target_lies_leads_as_well(creatures):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
     source, target, _ = creatures
-    found = choose.SearchResult(
-        np.eye(5), "a", None, "unlikely", registered_vertices=target.mesh.vertices + 1.0, swapped=True
-    )
+    found = SearchResult(np.eye(5), "a", None, "unlikely", registered_vertices=target.mesh.vertices + 1.0, swapped=True)
     led = matching._search_guidance(found, (source, target))
     alone = matching._search_guidance(replace(found, registered_vertices=None), (source, target))
     assert led is not None
@@ -593,7 +598,7 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
     assert [one is None for one in mending.register_map_on_proxies(C, pair, led, NO_LANDMARKS)] == [False, True]
 
 
-def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_images(creatures, monkeypatch):
+def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_images(creatures, monkeypatch):
     """The repaired map stays where it is better, and where no proxy can be registered all stays as it is."""
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200)))
@@ -604,11 +609,13 @@ def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_image
         np.asarray(to_functional(points, source.basis.truncate(40), target.basis.truncate(40)))
         for points in (torn, truth)
     ]
-    copies = ProxyCache.of(source, target, on.whole)
-    found = ranking.with_bending(score_maps([Start("torn", maps[0]), Start("right", maps[1])], on.whole), copies)
+    copies = ProxyCache.of(source, target, on.fine)
+    found = ranking.with_deformation_energy(
+        score_maps([Start("torn", maps[0]), Start("right", maps[1])], on.fine), copies
+    )
     marks, wrong = np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=bool)
     config = replace(kfmaps.Config(), threads=1)
-    torn_first = choose._Search(source, target, config, marks, None, wrong, on, copies, found, found, "preserving")
+    torn_first = SearchState(source, target, config, marks, None, wrong, on, copies, found, found, "preserving")
     best, second = choose._repair_best(torn_first).ranked
     assert best.score > found[0].score
     before, after = found[0].deformation_energy, best.deformation_energy
@@ -617,13 +624,13 @@ def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_image
     assert after < before
     assert second is found[1]
     compared = []
-    monkeypatch.setattr(choose, "_choose_orientation", lambda state, unduly: compared.append(unduly) or state)
-    for unduly in (False, True):
-        monkeypatch.setattr(choose, "deforms_unduly", lambda _found, unduly=unduly: unduly)
-        ranked = choose._rank(replace(torn_first, found=found[:1])).ranked
-        assert (ranked[0].score > found[0].score) == unduly
+    monkeypatch.setattr(choose, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)
+    for too_much in (False, True):
+        monkeypatch.setattr(choose, "deforms_too_much", lambda _best, too_much=too_much: too_much)
+        ranked = choose._rank(replace(torn_first, candidates=found[:1])).ranked
+        assert (ranked[0].score > found[0].score) == too_much
     assert compared == [False, True]
     monkeypatch.setattr(choose, "register_map_on_proxies", lambda *_what: iter([None]))
     assert choose._repair_best(torn_first) is torn_first
-    flat = replace(torn_first, copies=ProxyCache(source, target, (None, None)))
+    flat = replace(torn_first, proxies=ProxyCache(source, target, (None, None)))
     assert choose._repair_best(flat) is flat

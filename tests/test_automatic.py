@@ -20,7 +20,7 @@ from kfmaps.matching.candidates import candidates
 from kfmaps.matching.initial_maps import perturb, plan_fits
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShortDistances, map_quality, sample_for_scoring, subsample
-from kfmaps.matching.ranking import distinct
+from kfmaps.matching.ranking import distinct_candidates
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, excess_deformation, probability, verdict
 from kfmaps.matching.search import search_map
@@ -102,8 +102,8 @@ def test_stretch_counts_short_distances_alone():
     distances = np.abs(np.subtract.outer(*[np.array([0.0, 0.1, 0.2, 1.0, 1.1])] * 2))
     short = distances <= 0.2
     near = ShortDistances.of(distances)
-    assert near.change(np.where(short, 0.0, 5.0)) == 0
-    assert near.change(np.where(short, distances / 2, 0.0)) == pytest.approx(0.5)
+    assert near.relative_change(np.where(short, 0.0, 5.0)) == 0
+    assert near.relative_change(np.where(short, distances / 2, 0.0)) == pytest.approx(0.5)
 
 
 def test_quality_is_what_its_definition_says(shape, other):
@@ -319,7 +319,7 @@ def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
     assert found.config is SMALL
     assert found.fit.raw_target_to_source is None
     assert found.fit.status is None
-    assert found.score.initialization.startswith(("signs", "kicked", "SHOT", "extremities", "turned"))
+    assert found.score.initialization.startswith(("signs", "perturbed", "SHOT", "extremities", "self-map"))
 
 
 def test_progress_never_falls_and_ends_at_one(shape, other):
@@ -347,7 +347,7 @@ def test_distinct_maps_are_told_from_variations(shape):
         Candidate("alike", np.eye(60), np.where(same < 5, 5, same), replace(quality, coverage=0.9)),
         Candidate("other", np.eye(60), shuffled, replace(quality, coverage=0.5)),
     ]
-    assert [c.name for c in distinct(found[::-1], judge)] == ["best", "other"]
+    assert [c.name for c in distinct_candidates(found[::-1], judge)] == ["best", "other"]
 
 
 def test_a_rival_needs_a_clear_margin(shape):
@@ -357,7 +357,7 @@ def test_a_rival_needs_a_clear_margin(shape):
     rival = Candidate("rival", np.eye(60), np.arange(300), quality, uses_descriptors=False)
     for lag, first in ((0.2, "ours"), (0.5, "rival")):
         ours = Candidate("ours", np.eye(60), shuffled, replace(quality, coverage=quality.coverage - lag))
-        assert distinct([rival, ours], judge)[0].name == first
+        assert distinct_candidates([rival, ours], judge)[0].name == first
 
 
 def test_few_eigenfunctions_are_enough():

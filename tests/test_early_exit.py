@@ -8,12 +8,12 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fmap.convert import to_points
 from kfmaps.matching import candidates as found_by
-from kfmaps.matching import search as chosen_by
-from kfmaps.matching.candidates import candidates, early_exit
+from kfmaps.matching import search_result
+from kfmaps.matching.candidates import candidates, has_clear_map
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
-from kfmaps.matching.search import alternative_maps
+from kfmaps.matching.search_result import alternative_maps
 from kfmaps.shape import prepare
 from test_search import SMALL
 
@@ -57,21 +57,21 @@ def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
 
 def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, pair, on):
     tried, finalists = names(monkeypatch, pair, on, -np.inf)
-    assert tried == {"signs", "turned", 0.0, 12.0}
-    assert finalists <= found_by._FEWER
+    assert tried == {"signs", "self-map", 0.0, 12.0}
+    assert finalists <= found_by._N_CLEAR_FINALISTS
     tried, finalists = names(monkeypatch, pair, on, np.inf)
-    assert {"signs", "turned", "kicked", 0.0, 4.0, 12.0} < tried
-    assert finalists > found_by._FEWER
+    assert {"signs", "self-map", "perturbed", 0.0, 4.0, 12.0} < tried
+    assert finalists > found_by._N_CLEAR_FINALISTS
 
 
 def test_what_the_user_says_is_heard(monkeypatch, pair, on):
     given = np.random.default_rng(0).normal(size=(len(pair[0].mesh.vertices), 2))
     there = np.random.default_rng(1).normal(size=(len(pair[1].mesh.vertices), 2))
-    assert "kicked" in names(monkeypatch, pair, on, -np.inf, descriptors=(given, there))[0]
+    assert "perturbed" in names(monkeypatch, pair, on, -np.inf, descriptors=(given, there))[0]
     marks = np.stack([pair[2][:2], np.arange(2)], axis=1)
     both = sample_for_scoring(pair[0], landmarks=marks[:, 0]), sample_for_scoring(pair[1], landmarks=marks[:, 1])
     led = two_level_samples(pair[0], pair[1], both, marks)
-    assert "kicked" in names(monkeypatch, pair, led, -np.inf, landmarks=marks)[0]
+    assert "perturbed" in names(monkeypatch, pair, led, -np.inf, landmarks=marks)[0]
 
 
 def test_rivals_make_nothing_clear():
@@ -79,9 +79,9 @@ def test_rivals_make_nothing_clear():
         quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
         return Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided)
 
-    assert not early_exit([])
-    assert early_exit([of(1.0, True)])
-    assert not early_exit([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
+    assert not has_clear_map([])
+    assert has_clear_map([of(1.0, True)])
+    assert not has_clear_map([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
 
 
 def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
@@ -90,7 +90,7 @@ def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
     C = np.linalg.lstsq(target.basis.functions[:, :k], source.basis.functions[truth, :k], rcond=None)[0]
     whole = to_points(C, source.basis, target.basis)
     np.testing.assert_array_equal(alternative_maps([C], source.basis, target.basis)[0], whole)
-    monkeypatch.setattr(chosen_by, "MAX_CANDIDATES", 500)
+    monkeypatch.setattr(search_result, "MAX_CANDIDATES", 500)
     few = alternative_maps([C], source.basis, target.basis)[0]
     assert len(np.unique(few)) <= 500
     off = np.linalg.norm(source.mesh.vertices[few] - source.mesh.vertices[whole], axis=1)

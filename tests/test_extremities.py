@@ -14,18 +14,18 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import refine_coarse
 from kfmaps.matching.extremities import _MIN_DISTANCE, _gradient_cross, extremities
 from kfmaps.matching.extremity_matching import (
-    FEWEST,
+    _MIN_EXTREMITIES,
     ExtremityMatch,
     ExtremityVertices,
     extremity_cost,
     extremity_features,
-    extremity_similarity,
     match_extremities,
     match_of_map,
+    similar_matches,
 )
 from kfmaps.matching.initial_maps import extremity_inits, paired_map
 from kfmaps.matching.quality import mirror_samples, sample_for_scoring, subsample
-from kfmaps.matching.ranking import ProxyCache, in_order, ranking
+from kfmaps.matching.ranking import ProxyCache, by_preference, ranking
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
@@ -118,7 +118,7 @@ def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
 
 def test_the_true_pairing_is_among_the_first(creature, probes, on):
     """Tips in which the truth nearly agrees, most of them, among the pairings that are refined."""
-    found = match_extremities(on.few.source, on.few.target, on.few.descriptor_cost)
+    found = match_extremities(on.coarse.source, on.coarse.target, on.coarse.descriptor_cost)
     a, b = probes[0], probes[1]
     truth = creature[2]
     images = truth[b.samples.vertices[b.extremities.points]]
@@ -133,7 +133,7 @@ def test_the_true_pairing_is_among_the_first(creature, probes, on):
 
 def test_equal_shapes_pair_their_tips_with_themselves(probes):
     one = probes[0]
-    first = extremity_similarity(one, one)[0]
+    first = similar_matches(one, one)[0]
     assert np.array_equal(first.source, first.target)
     assert len(first.source) == len(one.extremities.points)
     everywhere = np.arange(len(one.positions))
@@ -148,7 +148,7 @@ def test_equal_shapes_pair_their_tips_with_themselves(probes):
 def test_of_five_extremities_one_may_be_left_out(probes, count, sizes):
     one, ends = probes[0], probes[0].extremities
     few = replace(ends, points=ends.points[:count], mean_distance=ends.mean_distance[:count])
-    assert {len(m.source) for m in extremity_similarity(*[replace(one, extremities=few)] * 2)} == sizes
+    assert {len(m.source) for m in similar_matches(*[replace(one, extremities=few)] * 2)} == sizes
 
 
 def test_distances_between_tips_alone_pair_them(probes):
@@ -162,7 +162,7 @@ def test_distances_between_tips_alone_pair_them(probes):
     tips = replace(
         plain.extremities, points=plain.extremities.points[order], distances=plain.extremities.distances[order]
     )
-    first = extremity_similarity(plain, replace(plain, extremities=tips))[0]
+    first = similar_matches(plain, replace(plain, extremities=tips))[0]
     assert np.array_equal(order[first.target], first.source)
 
 
@@ -171,41 +171,41 @@ def test_shapes_without_limbs_are_not_paired(probes):
     bare = replace(one, extremities=one.extremities.removed())
     assert match_extremities(one, bare, None) == []
     assert match_of_map(np.arange(len(one.positions)), bare, one) is None
-    few = replace(one.extremities, points=one.extremities.points[: FEWEST - 1])
+    few = replace(one.extremities, points=one.extremities.points[: _MIN_EXTREMITIES - 1])
     assert match_extremities(replace(one, extremities=few), one, None) == []
 
 
 def test_the_map_of_a_pairing_is_nearly_the_identity(on):
-    few = replace(on.few, target=on.few.source, descriptor_cost=None)
+    few = replace(on.coarse, target=on.coarse.source, descriptor_cost=None)
     k = 8
     C = paired_map(identity(len(few.source.extremities.points)), few, k)
     assert np.linalg.norm(C - np.eye(k)) < 0.5
 
 
 def test_pairings_find_the_map_between_bodies_of_other_proportions(creature, on):
-    found = refine_coarse(extremity_inits(40, on.few), on.few, 40)
+    found = refine_coarse(extremity_inits(40, on.coarse), on.coarse, 40)
     best = max(found, key=lambda c: c.score)
-    truth = creature[2][on.few.target.samples.vertices]
+    truth = creature[2][on.coarse.target.samples.vertices]
     where = creature[0].mesh.vertices
-    off = np.linalg.norm(where[on.few.source.samples.vertices[best.points]] - where[truth], axis=1)
+    off = np.linalg.norm(where[on.coarse.source.samples.vertices[best.points]] - where[truth], axis=1)
     assert off.mean() < 0.12
 
 
 def test_each_map_may_have_evidence_of_its_own(on):
-    bases = on.few.source.samples.basis, on.few.target.samples.basis
+    bases = on.coarse.source.samples.basis, on.coarse.target.samples.basis
     pairs = [identity(6), None, ExtremityMatch(np.arange(6), np.arange(6)[::-1].copy())]
     maps = np.repeat(np.eye(10)[None], 3, axis=0)
-    cost = on.few.matching_cost(4.0, 0.0, 30.0, pairs)
-    assert cost.shape == (3, len(on.few.target.positions), len(on.few.source.positions))
+    cost = on.coarse.matching_cost(4.0, 0.0, 30.0, pairs)
+    assert cost.shape == (3, len(on.coarse.target.positions), len(on.coarse.source.positions))
     together = batched_zoomout(maps, *bases, (10, 20, 30), cost)
     for i, pairing in enumerate(pairs):
-        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.few.matching_cost(4.0, 0.0, 30.0, [pairing]))
+        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.coarse.matching_cost(4.0, 0.0, 30.0, [pairing]))
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
-    speaks = on.few.matching_cost(0.0, 0.0, 2.0, pairs[:1])
+    speaks = on.coarse.matching_cost(0.0, 0.0, 2.0, pairs[:1])
     assert speaks is not None
     assert speaks[0] == pytest.approx(
-        2 * extremity_cost(on.few.source.extremities, on.few.target.extremities, pairs[0]), abs=1e-5
+        2 * extremity_cost(on.coarse.source.extremities, on.coarse.target.extremities, pairs[0]), abs=1e-5
     )
 
 
@@ -261,12 +261,12 @@ def test_copies_have_no_loose_points(creature):
 
 
 def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
-    found = refine_coarse(extremity_inits(40, on.few), on.few, 40)
-    ranked = ranking(found, on.whole, ProxyCache.of(creature[0], creature[1], on.whole))
+    found = refine_coarse(extremity_inits(40, on.coarse), on.coarse, 40)
+    ranked = ranking(found, on.fine, ProxyCache.of(creature[0], creature[1], on.fine))
     scores = [c.score for c in ranked]
     assert scores == sorted(scores, reverse=True)
     equal = [replace(ranked[0], deformation_energy=b) for b in (0.3, 0.1, 0.2)]
-    assert [c.deformation_energy for c in in_order(equal)] == [0.1, 0.2, 0.3]
+    assert [c.deformation_energy for c in by_preference(equal)] == [0.1, 0.2, 0.3]
     assert equal[0].quality == ranked[0].quality
     assert equal[0].score < equal[1].score
 

@@ -18,8 +18,10 @@ from kfmaps.geometry.sampling import stratified_vertices
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching.candidates import score_maps
+from kfmaps.matching import search_result
+from kfmaps.matching.candidates import rerefine, score_maps
 from kfmaps.matching.initial_maps import Start
+from kfmaps.matching.landmark_conflicts import ignore_landmarks, support_of_landmarks
 from kfmaps.matching.landmark_evidence import (
     LANDMARK_WEIGHT,
     LANDMARK_WEIGHT_UNLIKE,
@@ -29,7 +31,7 @@ from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, landmark_support, probability, verdict
-from kfmaps.matching.search import SearchResult, backed_by, ignore_landmarks, near_isometric
+from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.alternating_registration import (
     AlternatingResult,
@@ -71,8 +73,8 @@ def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
     C = functional(creatures[2], creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].whole))
-    monkeypatch.setattr(choose, "without_landmarks", lambda *_a, **_m: [])
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].fine))
+    monkeypatch.setattr(choose, "candidates_without_landmarks", lambda *_a, **_m: [])
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=-np.inf))
 
 
@@ -91,7 +93,7 @@ def given(creatures: Any, count: int) -> Any:
     source, target, _ = creatures
     at = spread_out(creatures, count)
     judges = sample_for_scoring(source, 300, landmarks=at[:, 0]), sample_for_scoring(target, 300, landmarks=at[:, 1])
-    return two_level_samples(source, target, judges, at).whole
+    return two_level_samples(source, target, judges, at).fine
 
 
 def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
@@ -158,15 +160,15 @@ def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> N
     areas = np.asarray(on.source.samples.basis.mass)
     assert on.landmark_evidence is not None
     assert (
-        backed_by(right, on)
+        support_of_landmarks(right, on)
         == landmark_support(ignore_landmarks(right, on).landmark_errors, on.landmark_evidence.distances, areas)
         > 0.3
     )
     # With landmarks in it the refinement would keep to them.
-    led = choose.rerefine([wrong], on)[0]
+    led = rerefine([wrong], on)[0]
     assert landmark_support(led.landmark_errors, on.landmark_evidence.distances, areas) > 0.3
-    assert backed_by(wrong, on) < 1e-3
-    assert backed_by(right, replace(on, landmark_cost=None, landmark_evidence=None)) == 0.0
+    assert support_of_landmarks(wrong, on) < 1e-3
+    assert support_of_landmarks(right, replace(on, landmark_cost=None, landmark_evidence=None)) == 0.0
 
 
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
@@ -174,8 +176,8 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
     harder = replace(SCORE.calibration, middle=0.0)
-    monkeypatch.setattr(choose, "probability", partial(probability, numbers=harder))
-    monkeypatch.setattr(choose, "verdict", partial(verdict, numbers=harder))
+    monkeypatch.setattr(search_result, "probability", partial(probability, numbers=harder))
+    monkeypatch.setattr(search_result, "verdict", partial(verdict, numbers=harder))
     config = replace(kfmaps.Config(), threads=1)
     without, backed = (
         choose.search_map(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40))
@@ -191,7 +193,7 @@ def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypat
     """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    monkeypatch.setattr(choose, "_contradicted_landmarks", lambda _state: (np.arange(10) < 2, ()))
+    monkeypatch.setattr(choose, "contradicted_landmarks", lambda _state: (np.arange(10) < 2, ()))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
     found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
@@ -303,7 +305,7 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
     monkeypatch.setattr(matching, "build_guidance", lambda *_a, lead, **_m: asked.append(lead))
     found = SearchResult(np.eye(3), "a", None, "unlikely")
     for quality in (None, SCORE.non_isometric_score, SCORE.non_isometric_score - 1):
-        assert near_isometric(replace(found, quality=quality)) == (quality != SCORE.non_isometric_score - 1)
+        assert replace(found, quality=quality).is_near_isometric == (quality != SCORE.non_isometric_score - 1)
         assert matching._search_guidance(replace(found, quality=quality), (source, target)) is None
     assert asked == [LANDMARK_WEIGHT, LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE]
 
@@ -313,7 +315,7 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     source, target, truth = creatures
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     C = functional(truth, creatures, 40)
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("a", C)], on)]
     at = spread_out(creatures, 4)

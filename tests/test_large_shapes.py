@@ -21,8 +21,9 @@ from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
 from kfmaps.kernels.landmark_selection import farthest_descriptors
-from kfmaps.matching.finish import refine_map, reseed
+from kfmaps.matching.finish import adapt_settings, refine_map
 from kfmaps.matching.fit import fit, fit_points
+from kfmaps.matching.search_result import SearchResult
 from kfmaps.shape import _local_descriptors, prepare, sample_shape
 
 GUARDS = (
@@ -152,8 +153,9 @@ def test_every_choice_of_points_comes_from_the_seed(pair):
     assert not any(np.array_equal(maps[0], other) for other in maps[2:])
     C = to_functional(truth, source.basis, target.basis)[:20, :20]
     zoom = ZoomOut(20, 40, 10, samples=300)
+    found = SearchResult(np.asarray(C), "a", None, "unchecked")
     ends = [
-        refine_map(C, source, target, replace(CONFIG, refinement=reseed(z, r))).functional_map
+        refine_map(C, source, target, adapt_settings(replace(CONFIG, refinement=z), found, r)).functional_map
         for z, r in ((zoom, 0), (zoom, 3), (replace(zoom, seed=3), 0), (zoom, 0))
     ]
     np.testing.assert_array_equal(ends[1], ends[2])

@@ -30,7 +30,7 @@ def made():
     """Two poses of a symmetric creature, their samples, and the true map as a candidate."""
     pair = datasets.symmetric_creature(1500, rng=1)
     source, target = prepare(pair.source, SMALL, name="source"), prepare(pair.target, SMALL, name="target")
-    on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target))).fine
     bases = source.basis.truncate(40), target.basis.truncate(40)
     C = np.asarray(to_functional(pair.truth, *bases))
     return SimpleNamespace(

@@ -13,8 +13,9 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.matching import finish
+from kfmaps.matching.finish import UNLIKE_LOCAL_SCALING, adapt_settings
 from kfmaps.matching.score import SCORE
-from kfmaps.matching.search import STRETCH, SearchResult, adapt_registration
+from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.local_scaling import _MAX_FACTOR, _MIN_FACTOR, _clip_eigenvalues, local_scaling
 from kfmaps.registration.nonrigid_icp import NonRigid
 
@@ -114,17 +115,22 @@ def test_a_stretch_is_an_area() -> None:
 
 
 def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
-    found = SearchResult(np.eye(3), "a", None, "unlikely", quality=SCORE.non_isometric_score - 1)
-    assert adapt_registration(NonRigid(), found) == NonRigid(local_scaling=STRETCH)
-    assert adapt_registration(NonRigid(local_scaling=0.2), found) == NonRigid(local_scaling=0.2)
-    assert adapt_registration(None, found) is None
-    for like in (SCORE.non_isometric_score, None):
-        assert adapt_registration(NonRigid(), replace(found, quality=like)) == NonRigid()
-    pair = datasets.two_poses(1500, rng=1)
     config = kfmaps.Config()
+
+    def adapted(registration, quality):
+        found = SearchResult(np.eye(3), "a", None, "unlikely", quality=quality)
+        return adapt_settings(replace(config, registration=registration), found, 0).registration
+
+    unlike = SCORE.non_isometric_score - 1
+    assert adapted(NonRigid(), unlike) == NonRigid(local_scaling=UNLIKE_LOCAL_SCALING)
+    assert adapted(NonRigid(local_scaling=0.2), unlike) == NonRigid(local_scaling=0.2)
+    assert adapted(None, unlike) is None
+    for like in (SCORE.non_isometric_score, None):
+        assert adapted(NonRigid(), like) == NonRigid()
+    pair = datasets.two_poses(1500, rng=1)
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], finish.register_map
     monkeypatch.setattr(finish, "register_map", lambda *a: seen.append(a[3].registration.local_scaling) or usual(*a))
     for quality in (SCORE.non_isometric_score + 1, SCORE.non_isometric_score - 1):
         finish.match_from_map(source, target, finish.KnownMap(pair.truth, "a", quality=quality), config)
-    assert seen == [0.0, STRETCH]
+    assert seen == [0.0, UNLIKE_LOCAL_SCALING]

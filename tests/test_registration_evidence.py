@@ -16,17 +16,16 @@ from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching import ranking
+from kfmaps.matching import landmark_conflicts, ranking
 from kfmaps.matching import registration_refine as mending
-from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
+from kfmaps.matching.landmark_conflicts import candidates_without_landmarks
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, normalize_errors, reference_values, rerank_close
-from kfmaps.matching.registration_refine import compared, refine_by_registration
+from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE
-from kfmaps.matching.search import without_landmarks
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import evidence as looks
 from kfmaps.registration.alternating_registration import proxy_pair
@@ -131,7 +130,7 @@ def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatc
 
 def one_of(creatures):
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
     return on, score_maps([Start("truth", functional(truth, source, target))], on)[0]
 
 
@@ -181,8 +180,8 @@ def test_repairs_that_were_given_up_count_as_the_worst(creatures, monkeypatch):
         replace(one, name=str(i), points=np.roll(one.points, 50 * i), functional_map=i * np.eye(5)) for i in range(3)
     ]
     ended = {i: replace(c, shot_error=0.1 + 0.2 * i, strain=float(i)) for i, c in enumerate(maps[:2])}
-    monkeypatch.setattr(mending, "compared", lambda found, *_what: found)
-    monkeypatch.setattr(mending, "_repair_all", lambda *_what: (ended, {2: maps[2]}))
+    monkeypatch.setattr(mending, "with_shot_errors", lambda found, *_what: found)
+    monkeypatch.setattr(mending, "_run_repairs", lambda *_what: (ended, {2: maps[2]}))
     nowhere, copies = np.zeros((0, 2), dtype=np.int64), ProxyCache.of(source, target, on)
     found = refine_by_registration(maps, on, copies, nowhere)[0]
     assert {c.name: c.shot_error for c in found} == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
@@ -260,7 +259,7 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
     asked = []
     monkeypatch.setattr(ranking, "rerank_close", lambda order, *_rest: asked.append(len(order)) or order)
     monkeypatch.setattr(
-        ranking, "with_bending", lambda near, *_rest: [replace(c, deformation_energy=0.15) for c in near]
+        ranking, "with_deformation_energy", lambda near, *_rest: [replace(c, deformation_energy=0.15) for c in near]
     )
     for margin, wanted in ((SCORE.shot_margin + 0.2, 0), (SCORE.shot_margin - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
@@ -286,7 +285,7 @@ def test_what_is_far_behind_is_not_looked_at(creatures):
         asked.append(c.strain)
         return replace(c, shot_error=0.2 + 0.1 * c.strain)
 
-    found = compared(behind, looked_at)
+    found = with_shot_errors(behind, looked_at)
     assert asked == [c.strain for c in behind[:2]]
     assert [c.strain for c in found] == [c.strain for c in behind]
     worst = 0.2 + 0.1 * (SCORE.hopeless_margin - 1) / SCORE.w_strain
@@ -303,17 +302,17 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
 
     def few(*what, **how):
         asked.append((what[3], how))
-        return score_maps([Start("free", np.eye(40))], what[3].whole)
+        return score_maps([Start("free", np.eye(40))], what[3].fine)
 
-    monkeypatch.setattr(choose, "candidates", few)
-    found = without_landmarks(source, target, kfmaps.Config(), on, 3, descriptors=None)
+    monkeypatch.setattr(landmark_conflicts, "candidates", few)
+    found = candidates_without_landmarks(source, target, kfmaps.Config(), on, 3, descriptors=None)
     alone, how = asked[0]
     assert how == {"descriptors": None}
-    assert alone.few.landmark_evidence is None
-    assert alone.few.landmark_cost is None
-    assert alone.whole.landmark_evidence is None
-    assert alone.whole.landmark_cost is None
-    assert alone.whole.descriptor_cost is on.whole.descriptor_cost
+    assert alone.coarse.landmark_evidence is None
+    assert alone.coarse.landmark_cost is None
+    assert alone.fine.landmark_evidence is None
+    assert alone.fine.landmark_cost is None
+    assert alone.fine.descriptor_cost is on.fine.descriptor_cost
     assert [c.name for c in found] == ["free"]
     assert found[0].landmark_errors.shape == (2,)
     np.testing.assert_array_equal(found[0].functional_map, np.eye(40))

@@ -31,7 +31,7 @@ from kfmaps.matching.features import Features
 from kfmaps.matching.initial_maps import Start, perturb
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import map_quality, sample_for_scoring, subsample
-from kfmaps.matching.ranking import distinct
+from kfmaps.matching.ranking import distinct_candidates
 from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.shape import Shape, prepare
 
@@ -112,8 +112,8 @@ def test_the_order_of_candidates_knows_no_rounding(shape):
     for first in FIRST:
         judge = sample_for_scoring(starting(shape, first), 200)
         found = score_maps([Start(*one) for one in maps.items()], build_sample_pair(judge, judge))
-        assert distinct(found, judge)[0].name == "right"
-        assert distinct(found[::-1], judge)[0].name == "right"
+        assert distinct_candidates(found, judge)[0].name == "right"
+        assert distinct_candidates(found[::-1], judge)[0].name == "right"
     # Symmetric maps tie but for rounding: the one that was found first stays first.
     right = score_maps([Start("right", np.eye(K))], build_sample_pair(judge, judge))[0]
     up = replace(right, quality=replace(right.quality, coverage=right.quality.coverage + 1e-15))

@@ -16,17 +16,25 @@ from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from kfmaps.geometry.sampling import spectral_samples
-from kfmaps.matching import candidates, search
+from kfmaps.matching import candidates, orientation
 from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
 from kfmaps.matching.features import sample_pair_for_fit
+from kfmaps.matching.finish import adapt_settings
 from kfmaps.matching.fit import fit
-from kfmaps.matching.initial_maps import FIT_POINTS, FitSpec, Start, fit_descriptor_set
+from kfmaps.matching.initial_maps import FIT_SAMPLES, FitSpec, Start, fit_descriptor_set
 from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import sample_for_scoring, sample_surface
-from kfmaps.matching.sample_pair import build_sample_pair, descriptor_cost, drop_landmarks, two_level_samples
+from kfmaps.matching.sample_pair import (
+    TwoLevelSamples,
+    build_sample_pair,
+    descriptor_cost,
+    drop_landmarks,
+    two_level_samples,
+)
 from kfmaps.matching.score import SCORE, rejected_landmarks
-from kfmaps.matching.search import SearchResult, adapt_refinement, search_map
+from kfmaps.matching.search import search_map
+from kfmaps.matching.search_result import SearchResult
 from kfmaps.shape import prepare, sample_shape
 
 GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.geometry.coarsen", "kfmaps.geometry.sampling", "kfmaps.matching")
@@ -73,7 +81,7 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
         weights=replace(SMALL.weights, orientation=0.0),
     )
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sample_pair_for_fit(shape, other, FIT_POINTS, none)
+    points = sample_pair_for_fit(shape, other, FIT_SAMPLES, none)
     wanted = [FitSpec("SHOT and waves", k, 0.0) for k in (30, 12)]
     maps = fit_descriptor_set(wanted, points, settings, (None, None), 3)
     for chosen, C in zip(wanted, (made.functional_map for made in maps), strict=True):
@@ -102,7 +110,7 @@ def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
 
 def test_the_orientation_of_a_family_turns_its_maps(shape, other):
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sample_pair_for_fit(shape, other, FIT_POINTS, none)
+    points = sample_pair_for_fit(shape, other, FIT_SAMPLES, none)
     probes = sample_for_scoring(shape, 200), sample_for_scoring(other, 200)
     cubes = probes[0].orientation, probes[1].orientation
     assert cubes[1] is not None
@@ -156,17 +164,17 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     wrong = np.array([10, 200, 5])
     judge = sample_for_scoring(shape, 300, landmarks=at)
     on = two_level_samples(shape, shape, (judge, judge), np.stack([at, wrong], axis=1))
-    assert on.whole.landmark_evidence is not None
-    off = landmark_errors(np.eye(60), judge.samples.basis.functions, on.whole.landmark_evidence)
+    assert on.fine.landmark_evidence is not None
+    off = landmark_errors(np.eye(60), judge.samples.basis.functions, on.fine.landmark_evidence)
     true = geodesic_distances(shape.mesh, at[2:])[0, 5]
     assert off[:2].max() < 0.1
     assert off[2] == pytest.approx(true, abs=0.1)
-    one = score_maps([Start("", np.eye(60))], on.whole)[0]
+    one = score_maps([Start("", np.eye(60))], on.fine)[0]
     assert one.quality.score - one.score == pytest.approx(SCORE.w_landmark, rel=0.3)
-    less = drop_landmarks(on, np.array([False, False, True])).whole
-    assert drop_landmarks(on, np.ones(3, dtype=bool)).few.landmark_cost is None
+    less = drop_landmarks(on, np.array([False, False, True])).fine
+    assert drop_landmarks(on, np.ones(3, dtype=bool)).coarse.landmark_cost is None
     assert rerefine([one], less)[0].landmark_errors.shape == (2,)
-    assert len(refine_fine([one], less, less, 90)[0].landmark_errors) == 2
+    assert len(refine_fine([one], TwoLevelSamples(less, less), 90)[0].landmark_errors) == 2
 
 
 def test_no_landmarks_are_an_empty_list_of_them(shape, other):
@@ -209,7 +217,7 @@ def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
 def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
     shape = prepare(blob(1500), SMALL)
     whole = sample_for_scoring(shape, 200, landmarks=np.array([7]))
-    monkeypatch.setattr("kfmaps.matching.quality.SURFACE", 900)
+    monkeypatch.setattr("kfmaps.matching.quality.MAX_SURFACE_VERTICES", 900)
     assert len(sample_surface(shape, np.arange(10))[0].vertices) < 950
     less = sample_for_scoring(shape, 200, landmarks=np.array([7]))
     np.testing.assert_array_equal(less.samples.vertices, whole.samples.vertices)
@@ -236,7 +244,7 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):
     mirrored = prepare(image, SMALL)
     assert search_map(shape, mirrored, SMALL).orientation == "reversing"
     assert search_map(shape, other, SMALL).verdict == "sure"
-    monkeypatch.setattr(search, "SCORE", replace(SCORE, congruent_energy=0.0, mirror_margin=100.0))
+    monkeypatch.setattr(orientation, "SCORE", replace(SCORE, congruent_energy=0.0, mirror_margin=100.0))
     kept = search_map(shape, mirrored, SMALL)
     assert (kept.orientation, kept.verdict) == ("preserving", "ambiguous")
     moved = shape.mesh.vertices[kept.alternatives[0]] * [1, 1, -1] - unit_area(image).vertices
@@ -247,16 +255,17 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):
 def test_a_refinement_of_unlike_shapes_ends_early():
     zoom = ZoomOut(50, 200, 25, descriptor_weight=36.0)
 
-    def found(quality):
-        return SearchResult(np.eye(80), "signs", None, "sure", quality=quality)
+    def adapted(refinement, quality):
+        found = SearchResult(np.eye(80), "signs", None, "sure", quality=quality)
+        return adapt_settings(replace(SMALL, refinement=refinement), found, 0).refinement
 
-    assert adapt_refinement(zoom, found(-5.0)) is zoom
-    assert adapt_refinement(zoom, found(None)) is zoom
-    assert adapt_refinement(None, found(-12.0)) is None
-    early = adapt_refinement(zoom, found(-12.0))
+    assert adapted(zoom, -5.0) == zoom
+    assert adapted(zoom, None) == zoom
+    assert adapted(None, -12.0) is None
+    early = adapted(zoom, -12.0)
     assert isinstance(early, ZoomOut)
     assert (early.start, early.stop, early.descriptor_weight) == (50, 100, 36.0)
-    assert adapt_refinement(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)
+    assert adapted(ZoomOut(20, 60, 5), -12.0) == ZoomOut(20, 60, 5)
 
 
 def test_a_search_without_kernel_fits_has_none(shape, other, monkeypatch):
@@ -264,7 +273,7 @@ def test_a_search_without_kernel_fits_has_none(shape, other, monkeypatch):
     assert SMALL.search is not None
     found = search_map(shape, other, replace(SMALL, search=replace(SMALL.search, candidates=0)), rng=0)
     assert found._search is not None
-    assert all(c.fit is None for c in found._search.found)
+    assert all(c.fit is None for c in found._search.candidates)
     assert found.verdict == "sure"
 
 
@@ -274,7 +283,7 @@ def test_a_candidate_knows_the_fit_that_it_began_with(shape, other, monkeypatch)
     found = search_map(shape, other, SMALL, rng=0)
     state = found._search
     assert state is not None
-    began = {c.name: c.fit for c in state.found}
+    began = {c.name: c.fit for c in state.candidates}
     fitted = {name: one for name, one in began.items() if name.startswith(("SHOT", "waves"))}
     assert fitted
     assert {name for name, one in began.items() if one is not None} == set(fitted)

@@ -11,14 +11,15 @@ from kfmaps import Config, Mesh, datasets, match
 from kfmaps.datasets.skeleton import Bend, Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_functional
-from kfmaps.matching import search
+from kfmaps.matching import orientation
 from kfmaps.matching import self_maps as within
 from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps
 from kfmaps.matching.initial_maps import Start, symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
-from kfmaps.matching.search import _choose_orientation, scoring_samples, search_map
+from kfmaps.matching.search import scoring_samples, search_map
+from kfmaps.matching.search_result import _margin
 from kfmaps.matching.self_maps import _MAX_DISTORTION, _MIN_DISPLACEMENT, find_self_maps, self_maps
 from kfmaps.shape import prepare
 from test_search import SMALL
@@ -34,7 +35,7 @@ def pair():
 
 @pytest.fixture(scope="module")
 def on(pair):
-    return two_level_samples(pair[0], pair[1], (sample_for_scoring(pair[0]), sample_for_scoring(pair[1]))).few
+    return two_level_samples(pair[0], pair[1], (sample_for_scoring(pair[0]), sample_for_scoring(pair[1]))).coarse
 
 
 def kept_seed():
@@ -65,7 +66,7 @@ def test_those_that_change_distances_early_are_none(monkeypatch, on):
     for one, other in zip(some, find_self_maps(on.source, 100), strict=True):
         np.testing.assert_array_equal(one, other)
     same, lost = np.eye(10), np.diag([1.0] + [0.0] * 9)
-    changed, moved_by = within._changed(np.stack([same, lost]), on.source)
+    changed, moved_by = within._changes(np.stack([same, lost]), on.source)
     assert changed[0] == moved_by[0] == 0.0
     assert moved_by[1] > _MIN_DISPLACEMENT
     # All that are taken to one point lose all of their distance.
@@ -77,8 +78,8 @@ def test_a_kept_probe_knows_them(pair):
     few = subsample(sample_for_scoring(pair[0], rng=kept_seed()), 400)
     for C, again in zip(self_maps(subsample(kept, 400), 100), find_self_maps(few, 100), strict=True):
         np.testing.assert_array_equal(C, again)
-    assert kept.turns is not None
-    np.testing.assert_array_equal(mirror_samples(kept).turns, kept.turns)
+    assert kept.self_maps is not None
+    np.testing.assert_array_equal(mirror_samples(kept).self_maps, kept.self_maps)
     # Those of fewer functions are others.
     assert [len(C) for C in self_maps(subsample(kept, 400), 30)] == [30] * len(find_self_maps(few, 30))
 
@@ -107,25 +108,25 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(pair, monkeypatch):
     source, target, truth = pair
     state = search_map(source, target, SMALL)._search
     assert state is not None
-    whole = state.samples.whole
+    whole = state.samples.fine
 
     def error(one):
         true = source.mesh.vertices[truth[whole.target.samples.vertices]]
         return np.linalg.norm(whole.source.positions[one.points] - true, axis=1).mean()
 
     assert error(state.ranked[0]) < 0.05
-    S, C = self_maps(state.samples.few.target, 40)[0], state.ranked[0].functional_map
+    S, C = self_maps(state.samples.coarse.target, 40)[0], state.ranked[0].functional_map
     mirrored = S @ C[: len(S), : len(S)]
     image = score_maps([Start("image", mirrored)], mirrored_pair(whole))[0]
-    missed = [one for one in state.found if error(one) > 0.1]
-    blind = replace(state, found=missed, ranked=ranking(missed, whole, state.copies))
+    missed = [one for one in state.candidates if error(one) > 0.1]
+    blind = replace(state, candidates=missed, ranked=ranking(missed, whole, state.proxies))
     assert image.score > blind.ranked[0].score
-    monkeypatch.setattr(search, "reversed_best", lambda *_: [image])
-    chosen = _choose_orientation(blind, unduly=True)
+    monkeypatch.setattr(orientation, "mirror_candidates", lambda *_: [image])
+    chosen = orientation.choose_orientation(blind, deforms_too_much=True)
     assert chosen.orientation == "preserving"
     assert error(chosen.ranked[0]) < 0.05
-    monkeypatch.setattr(search, "compose_with_symmetries", lambda *_: [])
-    assert _choose_orientation(blind, unduly=True).orientation == "reversing"
+    monkeypatch.setattr(orientation, "compose_with_symmetries", lambda *_: [])
+    assert orientation.choose_orientation(blind, deforms_too_much=True).orientation == "reversing"
 
 
 ARMS = 5
@@ -173,9 +174,9 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     best = replace(best, deformation_energy=0.01, strain=-0.1)
     usual = np.exp(-3.6 - 0.233 * best.quality.score)
     bends_less, bends_more = (replace(best, deformation_energy=usual * x, strain=0.1) for x in (0.99, 1.01))
-    assert search._margin(best, bends_less) == 0.0
-    assert search._margin(best, bends_more) == pytest.approx(best.score - bends_more.score) != 0.0
+    assert _margin(best, bends_less) == 0.0
+    assert _margin(best, bends_more) == pytest.approx(best.score - bends_more.score) != 0.0
     worse = replace(bends_less, quality=replace(best.quality, coverage=best.quality.coverage - 0.31))
-    assert search._margin(best, worse) == pytest.approx(best.score - worse.score)
+    assert _margin(best, worse) == pytest.approx(best.score - worse.score)
     unknown = replace(best, deformation_energy=None, strain=None)
-    assert search._margin(best, unknown) == best.score - unknown.score
+    assert _margin(best, unknown) == best.score - unknown.score

@@ -14,10 +14,11 @@ from kfmaps.datasets import symmetric_creature
 from kfmaps.fmap.convert import to_functional
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.matching import landmark_conflicts
 from kfmaps.matching import match as matching
-from kfmaps.matching import search as searching
 from kfmaps.matching.score import SCORE, max_landmark_error, rejected_landmarks
-from kfmaps.matching.search import SearchResult, search_map
+from kfmaps.matching.search import search_map
+from kfmaps.matching.search_result import SearchResult
 
 GUARDS = ("kfmaps.matching.search", "kfmaps.matching.score")
 
@@ -98,15 +99,15 @@ def test_a_sure_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
     )
     for one in (best, first, second):
         one.unregistered, one.landmark_errors = one, np.array(one.missed)
-    monkeypatch.setattr(searching, "ignore_landmarks", lambda one, *_: one)
-    monkeypatch.setattr(searching, "_without_evidence", lambda one: one)
-    monkeypatch.setattr(searching, "map_distance", lambda *_: 1.0)
-    monkeypatch.setattr(searching, "_best_by_surface", lambda _: [first, second])
-    whole = SimpleNamespace(source=None)
+    monkeypatch.setattr(landmark_conflicts, "ignore_landmarks", lambda one, *_: one)
+    monkeypatch.setattr(landmark_conflicts, "without_landmark_errors", lambda one: one)
+    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda *_: 1.0)
+    monkeypatch.setattr(landmark_conflicts, "rank_by_surface", lambda _: [first, second])
+    fine = SimpleNamespace(source=None)
     state: Any = SimpleNamespace(
-        ranked=[best], found=[best, first], samples=SimpleNamespace(whole=whole), config=kfmaps.Config()
+        ranked=[best], candidates=[best, first], samples=SimpleNamespace(fine=fine), config=kfmaps.Config()
     )
-    wrong, doubts = searching._contradicted_landmarks(state)
+    wrong, doubts = landmark_conflicts.contradicted_landmarks(state)
     assert wrong.tolist() == 2 * [outcome == "left out"]
     assert [(one, margin) for one, margin in doubts if margin < SCORE.close_margin] == (
         [(first, -ahead)] if outcome == "doubt" else []

@@ -11,7 +11,7 @@ import numpy as np
 from kfmaps._arrays import to_numpy
 from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
 from kfmaps.fmap.convert import to_functional
-from kfmaps.matching.candidates import FINE, FINE_WEIGHTS, refine_batch
+from kfmaps.matching.candidates import FINE_FUNCTIONS, FINE_WEIGHTS, refine_batch
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.quality import ShapeSamples, mirror_samples
 from kfmaps.matching.reindexing import reindexing
@@ -42,7 +42,7 @@ def score_pair_maps(
     not a map was refined on all vertices.
     """
     reindexed = reindexing(*shapes)
-    k = min(FINE, len(reindexed.source.basis.eigenvalues), len(reindexed.target.basis.eigenvalues))
+    k = min(FINE_FUNCTIONS, len(reindexed.source.basis.eigenvalues), len(reindexed.target.basis.eigenvalues))
     bases = reindexed.source.basis.truncate(k), reindexed.target.basis.truncate(k)
     points = [reindexed.part_s.to_clean[one[reindexed.part_t.to_original]] for one, _ in maps]
     functional_maps = [to_numpy(to_functional(one, *bases)) for one in points]

@@ -1,7 +1,11 @@
-"""Match the extremities of two shapes, and find the rough map that follows.
+"""Match the extremities of two shapes.
 
-All ways to pair the extremities are tried, and those kept whose extremities lie alike. Then, for each, the distances to
-them and the sense in which these grow are compared at all points, which tells limbs apart and left from right.
+1. All ways to pair the extremities are compared by their distances from each other, and the best few hundred are kept.
+2. Each match makes features of all points: their distances from the matched extremities, and the cross products of the
+   gradients of these, which tell left from right. The matches with the most similar features are the likeliest.
+
+The points with the most similar features are the initial map of a match
+(:func:`kfmaps.matching.initial_maps.extremity_inits`). The features also guide refinements.
 """
 
 from __future__ import annotations
@@ -18,14 +22,23 @@ from kfmaps.matching.extremities import Extremities, at_all_vertices
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.score import select_distinct
 
-FEWEST = 3
+_MIN_EXTREMITIES = 3
 """Least number of extremities that tell limbs apart."""
-TRIED = 200
-"""Matches that are compared at samples."""
-THIN = 150
+_N_COMPARED = 200
+"""Matches whose features are compared."""
+_N_SAMPLES = 150
 """Samples at which they are compared."""
-SHOT = 0.02
-"""Weight of SHOT beside distances from extremities."""
+_N_LIKELY = 32
+"""Matches that are returned."""
+_MIN_COMPLETE = 5
+"""Number of extremities from which one may be left out."""
+_UNMATCHED_COST = 0.15
+"""Cost of leaving out all extremities; that of one is its share. An ear of a dog has no partner on a cat."""
+_MAX_DISTANCE = 0.5
+"""Distance of an extremity's image from another extremity, over the mean distance of points, up to which a map matches
+the two."""
+_SHOT_WEIGHT = 0.02
+"""Weight of SHOT beside the features of extremities."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +52,7 @@ class ExtremityMatch:
         """Return the pairs of the extremities' numbers."""
         return set(zip(self.source.tolist(), self.target.tolist(), strict=True))
 
-    def within(self, other: ExtremityMatch) -> bool:
+    def is_within(self, other: ExtremityMatch) -> bool:
         """Return whether ``other`` has all of its pairs."""
         return self.pairs() <= other.pairs()
 
@@ -52,18 +65,18 @@ class ExtremityMatch:
 
 
 def unused_matches(likely: list[ExtremityMatch], known: list[ExtremityMatch], most: int) -> list[ExtremityMatch]:
-    """Return the first ``most`` of ``likely`` that contradict each other, without parts of those ``known``."""
+    """Return the first ``most`` of ``likely`` that contradict each other, without those within a ``known`` match."""
     first = select_distinct(likely, ExtremityMatch.contradicts, most)
-    whole = [complete_match(one, likely) for one in first]
-    return [one for one in whole if not any(one.within(other) for other in known)]
+    complete = [complete_match(one, likely) for one in first]
+    return [one for one in complete if not any(one.is_within(other) for other in known)]
 
 
-def complete_match(pairing: ExtremityMatch, likely: list[ExtremityMatch]) -> ExtremityMatch:
-    """Return the first of ``likely`` with all pairs of ``pairing`` and more, else ``pairing`` itself.
+def complete_match(match: ExtremityMatch, likely: list[ExtremityMatch]) -> ExtremityMatch:
+    """Return the first of ``likely`` with all pairs of ``match`` and more, else ``match`` itself.
 
-    With one extremity left out less can differ, so parts of a right match of all extremities come before it.
+    A right match of all extremities often has a slightly larger cost than the same with one extremity left out.
     """
-    return next((one for one in likely if pairing.within(one) and len(one.source) > len(pairing.source)), pairing)
+    return next((one for one in likely if match.is_within(one) and len(one.source) > len(match.source)), match)
 
 
 def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarray | None) -> list[ExtremityMatch]:
@@ -73,40 +86,37 @@ def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarr
     :func:`kfmaps.matching.sample_pair.descriptor_cost`.
     """
     a, b = source.extremities, target.extremities
-    if min(len(a.points), len(b.points)) < FEWEST:
+    if min(len(a.points), len(b.points)) < _MIN_EXTREMITIES:
         return []
-    tried = extremity_similarity(source, target)[:TRIED]
-    thin = a.subsample(THIN), b.subsample(THIN)
-    less = None if shot is None else shot[:THIN, :THIN]
-    left = [float(extremity_cost(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
-    return [tried[i] for i in np.argsort(left, kind="stable")[:32]]  # matches that are refined
+    matches = similar_matches(source, target)[:_N_COMPARED]
+    first = a.subsample(_N_SAMPLES), b.subsample(_N_SAMPLES)
+    shot = None if shot is None else shot[:_N_SAMPLES, :_N_SAMPLES]
+    costs = [float(extremity_cost(*first, match, shot).min(axis=1).mean()) for match in matches]
+    return [matches[i] for i in np.argsort(costs, kind="stable")[:_N_LIKELY]]
 
 
-def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
-    """Return all matches of as many extremities as both shapes have, or of one less, the most alike first.
+def similar_matches(source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
+    """Return matches of as many extremities as both shapes have, or of one less, the most similar first.
 
-    Their distances from each other and from the rest are compared, and the heat kernel signature, which knows a tail
+    Their distances from each other and from the rest are compared, and the heat kernel signature, which tells a tail
     from a leg.
     """
     a, b = source.extremities, target.extremities
     between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
-    apart = extremity_difference(source, target)
+    difference = extremity_difference(source, target)
     both = min(len(a.points), len(b.points))
-    costs, found = [], []
-    # Cost of leaving out all extremities; that of one is its share. An ear of a dog has no partner on a cat.
-    left_out = 0.15
-    for size in (both, both - 1) if both >= 5 else (both,):  # number of extremities from which one may be left out
+    costs, matches = [], []
+    for size in (both, both - 1) if both >= _MIN_COMPLETE else (both,):
         images = np.array(list(permutations(range(len(b.points)), size)))
         for chosen in combinations(range(len(a.points)), size):
-            ours = between_s[np.ix_(chosen, chosen)]
-            theirs = between_t[images[:, :, None], images[:, None, :]]
-            cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))
-            cost = cost + apart[np.array(chosen), images].mean(axis=1) + left_out * (both - size) / both
-            best = np.argsort(cost, kind="stable")[:TRIED]
+            distances_s = between_s[np.ix_(chosen, chosen)]
+            distances_t = between_t[images[:, :, None], images[:, None, :]]
+            cost = np.abs(distances_t - distances_s).sum(axis=(1, 2)) / (size * (size - 1))
+            cost = cost + difference[np.array(chosen), images].mean(axis=1) + _UNMATCHED_COST * (both - size) / both
+            best = np.argsort(cost, kind="stable")[:_N_COMPARED]
             costs.append(cost[best])
-            found += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
-    order = np.argsort(np.concatenate(costs), kind="stable")
-    return [found[i] for i in order]
+            matches += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
+    return [matches[i] for i in np.argsort(np.concatenate(costs), kind="stable")]
 
 
 def extremity_difference(source: ShapeSamples, target: ShapeSamples) -> np.ndarray:
@@ -120,30 +130,29 @@ def extremity_difference(source: ShapeSamples, target: ShapeSamples) -> np.ndarr
 
 
 def extremity_cost(
-    a: Extremities, b: Extremities, pairing: ExtremityMatch, shot: np.ndarray | None = None
+    source: Extremities, target: Extremities, match: ExtremityMatch, shot: np.ndarray | None = None
 ) -> np.ndarray:
     """Return the squared differences of the features of samples, ``(q_t, q_s)`` (:func:`extremity_features`)."""
-    there, here = extremity_features(b, pairing.target), extremity_features(a, pairing.source)
-    cost = -2 * there @ here.T
-    cost += (there**2).sum(axis=1)[:, None]
-    cost += (here**2).sum(axis=1)
+    F_s, F_t = extremity_features(source, match.source), extremity_features(target, match.target)
+    cost = -2 * F_t @ F_s.T
+    cost += (F_t**2).sum(axis=1)[:, None]
+    cost += (F_s**2).sum(axis=1)
     if shot is not None:
-        cost += SHOT * shot
+        cost += _SHOT_WEIGHT * shot
     return cost
 
 
 def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityMatch | None:
     """Return the extremities that a map ``points (q_t,)`` takes near each other; ``None`` for fewer than three."""
     a, b = source.extremities, target.extremities
-    if min(len(a.points), len(b.points)) < FEWEST:
+    if min(len(a.points), len(b.points)) < _MIN_EXTREMITIES:
         return None
     # From each extremity of the source to the image of each of the target.
-    off = a.distances[:, points[b.points]]
-    nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
-    # Largest distance of an extremity's image from the extremity that it goes to, over the mean distance of points.
-    near = 0.5
-    theirs = np.flatnonzero((off.min(axis=0) < near) & (nearest_t[nearest_s] == np.arange(len(b.points))))
-    return ExtremityMatch(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
+    distances = a.distances[:, points[b.points]]
+    nearest_s, nearest_t = distances.argmin(axis=0), distances.argmin(axis=1)
+    is_mutual = nearest_t[nearest_s] == np.arange(len(b.points))
+    matched = np.flatnonzero((distances.min(axis=0) < _MAX_DISTANCE) & is_mutual)
+    return ExtremityMatch(nearest_s[matched], matched) if len(matched) >= _MIN_EXTREMITIES else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +168,7 @@ class ExtremityVertices:
     ) -> DescriptorGuidance:
         """Return the features of all vertices, whose squared differences are twice :func:`extremity_cost`.
 
-        ``graphs``: geodesic graphs of both meshes, of depth 1, where they are there already.
+        ``graphs``: geodesic graphs of both meshes, of depth 1, if they have been computed.
         """
         everything = np.arange(len(self.source))
         sides = zip((source, target), (self.source, self.target), self.units, graphs, strict=True)
@@ -170,19 +179,22 @@ class ExtremityVertices:
 
 def extremity_vertices(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices | None:
     """Return the extremities that a map of samples matches (:func:`match_of_map`), as vertices."""
-    found = match_of_map(points, source, target)
-    return None if found is None else vertices_of_match(found, source, target)
+    match = match_of_map(points, source, target)
+    return match and vertices_of_match(match, source, target)
 
 
-def vertices_of_match(found: ExtremityMatch, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices:
+def vertices_of_match(match: ExtremityMatch, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices:
     """Return the extremities of a match as vertices of both shapes."""
-    at = source.extremities.points[found.source], target.extremities.points[found.target]
-    units = source.extremities.unit, target.extremities.unit
-    return ExtremityVertices(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
+    sides = (source, match.source), (target, match.target)
+    vertices = [shape.samples.vertices[shape.extremities.points[chosen]] for shape, chosen in sides]
+    return ExtremityVertices(vertices[0], vertices[1], (source.extremities.unit, target.extremities.unit))
 
 
-def extremity_features(found: Extremities, chosen: np.ndarray) -> np.ndarray:
-    """Return distances from the ``chosen`` extremities and their gradients' turns at each sample, each 1 on average."""
+def extremity_features(extremities: Extremities, chosen: np.ndarray) -> np.ndarray:
+    """Return features at each sample, (q, d): distances from the ``chosen`` extremities and gradient cross products.
+
+    The distances and the cross products are scaled by their numbers, so that both count alike.
+    """
     upper = np.triu_indices(len(chosen), 1)
-    turn = found.gradient_cross[np.ix_(chosen, chosen)][upper]
-    return np.vstack([found.distances[chosen] / np.sqrt(len(chosen)), turn / np.sqrt(max(len(turn), 1))]).T
+    cross = extremities.gradient_cross[np.ix_(chosen, chosen)][upper]
+    return np.vstack([extremities.distances[chosen] / np.sqrt(len(chosen)), cross / np.sqrt(max(len(cross), 1))]).T

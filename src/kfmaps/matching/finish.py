@@ -1,4 +1,8 @@
-"""Finish a map that a fit, a search or other maps have found: refine, register, and build the result."""
+"""Finish a map that a search, one fit or other maps have found: refine it on all vertices, register, build the match.
+
+ZoomOut refines the functional map on all vertices, guided by SHOT, landmarks and extremities. The point map that comes
+of it starts a non-rigid registration of the source onto the target, which gives points inside triangles.
+"""
 
 from __future__ import annotations
 
@@ -14,19 +18,26 @@ from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional, to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.fmap.refine import Refined, Refinement
+from kfmaps.fmap.refine import Refined
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
-from kfmaps.matching.candidates import FINE
+from kfmaps.matching.candidates import FINE_FUNCTIONS
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
 from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, torn_score
-from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
+from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.solve import Fit
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
+
+UNLIKE_FUNCTIONS = 100
+"""Functions at the end of the refinement between unlike shapes, whose higher functions do not correspond. With it a
+gorilla and a woman have an error of 5.2 instead of 8.5, cats and dogs 10.5 instead of 10.9 on average; people of other
+bodies lose nothing."""
+UNLIKE_LOCAL_SCALING = 0.01
+"""Area over which sizes may change evenly in the registration of unlike shapes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +89,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     if config.formulation.bidirectional:
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.functional_map.T if found.fit is None or found.fit.back is None else found.fit.back
-    adapted = replace(
-        config,
-        refinement=reseed(adapt_refinement(config.refinement, found), task.seed),
-        registration=adapt_registration(config.registration, found),
-    )
+    adapted = adapt_settings(config, found, task.seed)
     refined = refine_map(
         found.functional_map,
         *shapes,
@@ -219,10 +226,21 @@ def refine_map(
     return PostprocessedMap(found.target_to_source, to_numpy(found.functional_map), points, clock.seconds, *ends)
 
 
-def reseed(refinement: Refinement | None, seed: int) -> Refinement | None:
-    """Return the ``refinement`` with ``seed`` added to that of its samples, where it has one."""
-    refine: Any = refinement
-    return replace(refine, seed=refine.seed + seed) if hasattr(refine, "seed") else refine
+def adapt_settings(config: Config, found: SearchResult, seed: int) -> Config:
+    """Return the settings of refinement and registration for a map; ``seed`` is added to that of the refinement.
+
+    Between unlike shapes the refinement ends with fewer functions, and the registration lets sizes change.
+    """
+    refinement: Any = config.refinement
+    registration: Any = config.registration
+    if not found.is_near_isometric:
+        if hasattr(refinement, "limited"):
+            refinement = refinement.limited(UNLIKE_FUNCTIONS)
+        if getattr(registration, "local_scaling", None) == 0:
+            registration = replace(registration, local_scaling=UNLIKE_LOCAL_SCALING)
+    if hasattr(refinement, "seed"):
+        refinement = replace(refinement, seed=refinement.seed + seed)
+    return replace(config, refinement=refinement, registration=registration)
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,7 +268,7 @@ def match_from_map(
     meshes = (source.given_mesh, target.given_mesh)
     task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer())
     shapes = task.shapes(known.orientation)
-    size = min(FINE, *(len(shape.basis.eigenvalues) for shape in shapes))
+    size = min(FINE_FUNCTIONS, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.points_within(points), *bases))
     told = {"orientation": known.orientation, "quality": known.quality}

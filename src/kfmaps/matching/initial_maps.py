@@ -15,7 +15,7 @@ from scipy.linalg import expm
 
 from kfmaps._arrays import inner, refuse
 from kfmaps._threads import parallel
-from kfmaps.config import Config, DescriptorConfig
+from kfmaps.config import Config
 from kfmaps.fmap.multiplication_operators import unpack_operators
 from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import Basis
@@ -28,39 +28,40 @@ from kfmaps.matching.assemble import (
     scale_operators,
 )
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
-from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors
+from kfmaps.matching.features import Descriptors, Features, SampledPair, kernel_features, pair_descriptors
 from kfmaps.matching.fit import robust_weights
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
 from kfmaps.matching.score import Candidate
 from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import Fit, minimize_problem
 
-KernelWeights = tuple[float, ...]
-"""Of SHOT, of landmarks and of extremities."""
-LITTLE: KernelWeights = (4.0, 12.0)
-MUCH: KernelWeights = (12.0, 12.0)
-WEIGHTS: tuple[KernelWeights, ...] = ((0.0, 0.0), MUCH, LITTLE)
-"""In the rough refinement of sign choices; with none symmetric maps are found too."""
-FIT_WEIGHTS: tuple[KernelWeights, ...] = (LITTLE, MUCH)
+CostWeights = tuple[float, ...]
+"""Weights of the costs of SHOT, of landmarks and, where given, of extremities."""
+WEAK: CostWeights = (4.0, 12.0)
+STRONG: CostWeights = (12.0, 12.0)
+COARSE_WEIGHTS: tuple[CostWeights, ...] = ((0.0, 0.0), STRONG, WEAK)
+"""Of sign maps in the coarse refinement; without any cost symmetric maps are found too."""
+FIT_WEIGHTS: tuple[CostWeights, ...] = (WEAK, STRONG)
+"""Of kernel fits and of maps composed with self-maps."""
+EXTREMITY_WEIGHTS: CostWeights = (4.0, 12.0, 30.0)
 EXTREMITY_FUNCTIONS = 12
-"""Functions of the map that an extremity match starts from."""
-STARTS = (6, 10, 20)
-"""Functions that the rough refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
+"""Functions of the initial map of an extremity match."""
+START_SIZES = (6, 10, 20)
+"""Functions that the coarse refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""
-
-FIT_POINTS = 2000
+FIT_SAMPLES = 2000
 """Samples of each shape that a fit is made from."""
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """A map before it is refined and scored: where it came from, and what takes part."""
+    """An initial map, and how it is refined."""
 
     name: str
     functional_map: np.ndarray  # (k, k)
-    uses_descriptors: bool = True
-    weights: KernelWeights = ()
-    functions: int = 0  # of the first step of the rough refinement
+    uses_descriptors: bool = True  # whether descriptors take part in the refinement
+    weights: CostWeights = ()
+    functions: int = 0  # of the first step of the coarse refinement
     match: ExtremityMatch | None = None
     fit: Fit | None = None
     points: np.ndarray | None = None  # (q_t,): a source sample for each target sample, where they are known
@@ -79,71 +80,68 @@ class FitSpec:
         return f"{self.descriptor_set}, {self.functions} functions, orientation {self.orientation:g}"
 
 
-def distinct_weights(weights: Iterable[KernelWeights], pair: SamplePair) -> list[KernelWeights]:
-    """Return the ``weights`` that differ where SHOT or landmarks may be unknown."""
+def distinct_weights(weights: Iterable[CostWeights], pair: SamplePair) -> list[CostWeights]:
+    """Return the distinct ``weights``, 0 for costs of SHOT and of landmarks that the samples do not have."""
     known = (pair.descriptor_cost is not None, pair.landmark_cost is not None, True)
     return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
 
 
-def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights]) -> list[Start]:
+def sign_inits(count: int, pair: SamplePair, weights: Iterable[CostWeights]) -> list[Start]:
     """Return diagonal maps with all signs of ``count`` functions after the constant one, with all ``weights``."""
     if count == 0:
         return []
-    signs = [np.array([1.0, *some]) for some in product((1, -1), repeat=count)]
-
-    def name(some: np.ndarray, weight: float) -> str:
-        return "signs " + "".join("+" if s > 0 else "-" for s in some[1:]) + f", weight {weight:g}"
-
     return [
-        Start(name(some, w[0]), np.diag(some), bool(w[0]) or pair.descriptor_cost is None, w, count + 1)
+        Start(
+            f"signs {''.join('+' if s > 0 else '-' for s in signs)}, weight {w[0]:g}",
+            np.diag([1.0, *signs]),
+            bool(w[0]) or pair.descriptor_cost is None,
+            w,
+            count + 1,
+        )
         for w in distinct_weights(weights, pair)
-        for some in signs
+        for signs in product((1, -1), repeat=count)
     ]
 
 
 def repeated_starts(maps: Iterable[tuple[str, np.ndarray, Fit | None]], pair: SamplePair) -> list[Start]:
     """Return starts of ``maps``, each with its name and fit, from several sizes and with several weights."""
     return [
-        Start(f"{name}, from {start}, weight {w[0]:g}", C, True, w, start, fit=fit)
+        Start(f"{name}, from {size}, weight {w[0]:g}", C, True, w, size, fit=fit)
         for name, C, fit in maps
-        for start in STARTS
+        for size in START_SIZES
         for w in distinct_weights(FIT_WEIGHTS, pair)
     ]
 
 
 def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
-    """Return maps that follow from matches of extremities (:mod:`kfmaps.matching.extremity_matching`)."""
+    """Return the maps of likely extremity matches (:mod:`kfmaps.matching.extremity_matching`)."""
     size = min(EXTREMITY_FUNCTIONS, functions)
-    found = match_extremities(pair.source, pair.target, pair.descriptor_cost)
-    maps = [(match, paired_map(match, pair, size)) for match in found]
-    return [
-        Start(f"{match}", C, True, w, len(C), match)
-        for w in distinct_weights([(4.0, 12.0, 30.0)], pair)
-        for match, C in maps
-    ]
+    weights = distinct_weights([EXTREMITY_WEIGHTS], pair)[0]
+    matches = match_extremities(pair.source, pair.target, pair.descriptor_cost)
+    return [Start(f"{match}", paired_map(match, pair, size), True, weights, size, match) for match in matches]
 
 
 def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
-    """Return the functional map (k, k) of the points that are alike by a match of extremities."""
-    points = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.descriptor_cost).argmin(
-        axis=1
-    )
-    return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[points, :k], float)
+    """Return the functional map (k, k) of the sample pairs with the least cost by a match of extremities."""
+    cost = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.descriptor_cost)
+    return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[cost.argmin(axis=1), :k], float)
 
 
 def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int) -> list[Start]:
-    """Return the ``best`` candidates composed with near-symmetries of both shapes.
+    """Return the ``best`` candidates composed with the self-maps of both shapes.
 
-    Whatever else a search has missed, the best map is compared with these, so that it is not called sure merely for
-    want of a rival.
+    So a search compares its best map with the maps that it may be mistaken for, whether or not it has found them.
     """
-    own, theirs = (self_maps(side, functions) for side in (pair.source, pair.target))
+    self_maps_s, self_maps_t = (self_maps(side, functions) for side in (pair.source, pair.target))
     composed = []
     for i, candidate in enumerate(best):
         C = candidate.functional_map
-        for S, after in [*((S, False) for S in own), *((S, True) for S in theirs)]:
+        for S in self_maps_s:
             k = min(len(C), len(S))
-            composed.append((f"turned {i}", S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k], None))
+            composed.append((f"self-map {i}", C[:k, :k] @ S[:k, :k], None))
+        for S in self_maps_t:
+            k = min(len(C), len(S))
+            composed.append((f"self-map {i}", S[:k, :k] @ C[:k, :k], None))
     return repeated_starts(composed, pair)
 
 
@@ -169,16 +167,16 @@ def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) ->
 
 def kernel_inits(points: SampledPair, config: Config, samples: TwoLevelSamples, seed: int) -> list[Start]:
     """Return small kernel fits, each to be refined from several sizes and with several weights of the descriptors."""
-    operators = samples.whole.source.orientation, samples.whole.target.orientation
-    fits = plan_fits(config, surfaces=all(one is not None for one in operators))
+    operators = samples.fine.source.orientation, samples.fine.target.orientation
+    specs = plan_fits(config, samples.fine.are_surfaces)
 
     def starts(name: str) -> list[Start]:
-        members = [fit for fit in fits if fit.descriptor_set == name]
-        made = fit_descriptor_set(members, points, config, operators, seed)
-        named = [(spec.name, fit.functional_map, fit) for spec, fit in zip(members, made, strict=True)]
-        return repeated_starts(named, samples.few)
+        members = [spec for spec in specs if spec.descriptor_set == name]
+        fits = fit_descriptor_set(members, points, config, operators, seed)
+        named = [(spec.name, fit.functional_map, fit) for spec, fit in zip(members, fits, strict=True)]
+        return repeated_starts(named, samples.coarse)
 
-    names = list(dict.fromkeys(fit.descriptor_set for fit in fits))
+    names = dict.fromkeys(spec.descriptor_set for spec in specs)
     return [start for several in parallel(starts, names) for start in several]
 
 
@@ -193,10 +191,9 @@ def drop_learned(config: Config) -> Config:
         got = f"one learned with {n_kernel_landmarks(config.kernel)} landmarks"
         raise refuse("kernel of a search", "one without landmarks", got, "set search to none, or leave the kernel out")
     usual = Config()
-    asked = replace(config.formulation, mask=usual.formulation.mask, mask_power=usual.formulation.mask_power)
-    return replace(
-        config, kernel=usual.kernel, bandwidth_scale=usual.bandwidth_scale, weights=usual.weights, formulation=asked
-    )
+    formulation = replace(config.formulation, mask=usual.formulation.mask, mask_power=usual.formulation.mask_power)
+    changed = {name: getattr(usual, name) for name in ("kernel", "bandwidth_scale", "weights")}
+    return replace(config, **changed, formulation=formulation)
 
 
 def plan_fits(config: Config, surfaces: bool = True) -> list[FitSpec]:
@@ -208,30 +205,28 @@ def plan_fits(config: Config, surfaces: bool = True) -> list[FitSpec]:
     # In the order of how often each was right.
     sizes = [min(k, config.basis.n_eigenfunctions) for k in (20, 50, 20, 35, 50, 35)]
     names = ("SHOT", "SHOT and waves") if config.descriptors.shot and surfaces else ("waves",)
-    weights = (0.1, 0.1, 1.0, 0.1, 1.0, 1.0) if surfaces else (0.0,) * 3  # their weights of orientation
-    found = [FitSpec(name, k, weight) for k, weight in zip(sizes, weights, strict=False) for name in names]
-    return found[: config.search.candidates]
+    orientations = (0.1, 0.1, 1.0, 0.1, 1.0, 1.0) if surfaces else (0.0,) * 3
+    specs = [FitSpec(name, k, weight) for k, weight in zip(sizes, orientations, strict=False) for name in names]
+    return specs[: config.search.candidates]
 
 
 def fit_descriptor_set(
-    fits: list[FitSpec],
+    specs: list[FitSpec],
     points: SampledPair,
     config: Config,
     operators: tuple[np.ndarray | None, np.ndarray | None],
     seed: int,
 ) -> list[Fit]:
-    """Return the ``fits`` that share a descriptor set.
+    """Return the fits that share a descriptor set.
 
     Descriptors, features and operators are computed once, for the largest size; a smaller fit takes leading blocks.
     ``operators``: orientation operators ``(w, k, k)`` of the first functions of both shapes, k at least that size.
     """
     bases = points.shapes[0].basis, points.shapes[1].basis
-    asked = _descriptor_config(fits[0].descriptor_set, config.descriptors)
-    marks = points.landmarks if asked.landmark_descriptor != "none" else points.landmarks[:0]
-    used = _weighed(pair_descriptors(*points.shapes, bases, asked, marks, points.descriptors), bases, config)
-    size = min(max(f.functions for f in fits), *(b.functions.shape[1] for b in bases))
+    descriptors = _set_descriptors(specs[0].descriptor_set, points, bases, config)
+    size = min(max(spec.functions for spec in specs), *(b.functions.shape[1] for b in bases))
     low = (bases[0].truncate(size), bases[1].truncate(size))
-    # Both directions at once are for the answer; a candidate is refined one way.
+    # A fit of both directions is for the final map; candidates are refined in one direction.
     small = replace(
         config,
         nystrom=replace(config.nystrom, samples=min(200, config.nystrom.samples)),
@@ -240,41 +235,51 @@ def fit_descriptor_set(
         preconditioner="sylvester",
         formulation=replace(config.formulation, bidirectional=False),
     )
-    features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
+    features = kernel_features(*points.shapes, descriptors, small, np.random.default_rng(seed))
     packed = compressed_operators(low, (features.source, features.target), max(config.operator_rtol, 1e-3))
-    operators_of_features = [unpack_operators(p) for p in packed]
-    turning: list[np.ndarray] = []
-    known = [cube for cube in operators if cube is not None]
-    if len(known) == 2:
-        strongest = principal_features(low, features, ORIENTATION_FEATURES)
-        for basis, F, cube in zip(low, (strongest.source, strongest.target), known, strict=True):
-            coefficients = basis.project(F)[: len(cube)]
-            turning.append(np.tensordot(coefficients.T, cube[: len(coefficients)], axes=1))
-    made = []
-    for fit in fits:
-        k = min(fit.functions, size)
-        blocks = (operators_of_features[0][:, :k, :k], operators_of_features[1][:, :k, :k])
-        orientations = None
-        if fit.orientation and turning:
-            orientations = scale_operators([X[:, :k, :k] for X in turning], sum(inner(X, X) for X in blocks))
-        settings = replace(small, weights=replace(config.weights, orientation=fit.orientation))
-        bases_k = (low[0].truncate(k), low[1].truncate(k))
-        problem = FitProblem(settings, points.shapes, bases_k, features.kernel, used, features, blocks, orientations)
-        made.append(minimize_problem(problem))
-    return made
+    multiplications = [unpack_operators(p) for p in packed]
+    orientations = _feature_orientations(low, features, operators)
+    fits = []
+    for spec in specs:
+        k = min(spec.functions, size)
+        blocks = multiplications[0][:, :k, :k], multiplications[1][:, :k, :k]
+        turns = None
+        if spec.orientation and orientations:
+            turns = scale_operators([X[:, :k, :k] for X in orientations], sum(inner(X, X) for X in blocks))
+        settings = replace(small, weights=replace(config.weights, orientation=spec.orientation))
+        leading = low[0].truncate(k), low[1].truncate(k)
+        problem = FitProblem(settings, points.shapes, leading, features.kernel, descriptors, features, blocks, turns)
+        fits.append(minimize_problem(problem))
+    return fits
 
 
-def _descriptor_config(name: str, base: DescriptorConfig) -> DescriptorConfig:
-    """Return the descriptors of a set."""
-    both = replace(base, n_spectral=30)
+def _set_descriptors(name: str, points: SampledPair, bases: tuple[Basis, Basis], config: Config) -> Descriptors:
+    """Return the descriptors of a set, weighted by a robust loss where the formulation has one that applies to them."""
+    kinds = replace(config.descriptors, n_spectral=30)
     if name == "SHOT":
-        return replace(both, signature="none", landmark_descriptor="none")
-    return both if name == "SHOT and waves" else replace(both, shot=False)
+        kinds = replace(kinds, signature="none", landmark_descriptor="none")
+    elif name == "waves":
+        kinds = replace(kinds, shot=False)
+    landmarks = points.landmarks if kinds.landmark_descriptor != "none" else points.landmarks[:0]
+    descriptors = pair_descriptors(*points.shapes, bases, kinds, landmarks, points.descriptors)
+    formulation = config.formulation
+    has_groups = formulation.loss_group != "landmark" or (descriptors.landmark >= 0).any()
+    return robust_weights(descriptors, bases, config)[0] if formulation.weighs_data and has_groups else descriptors
 
 
-def _weighed(used: Descriptors, bases: tuple[Basis, Basis], config: Config) -> Descriptors:
-    """Return ``used``, weighed by a robust loss where the formulation has one and there is what it is taken over."""
-    asked = config.formulation
-    if not asked.weighs_data or (asked.loss_group == "landmark" and not (used.landmark >= 0).any()):
-        return used
-    return robust_weights(used, bases, config)[0]
+def _feature_orientations(
+    bases: tuple[Basis, Basis], features: Features, operators: tuple[np.ndarray | None, np.ndarray | None]
+) -> list[np.ndarray]:
+    """Return orientation operators ``(c, k, k)`` of the strongest features of both shapes; none of point clouds.
+
+    ``operators (w, k, k)``: those of the first functions, of which a feature's operator is a linear combination.
+    """
+    source, target = operators
+    if source is None or target is None:
+        return []
+    strongest = principal_features(bases, features, ORIENTATION_FEATURES)
+    combined = []
+    for basis, F, own in zip(bases, (strongest.source, strongest.target), (source, target), strict=True):
+        coefficients = basis.project(F)[: len(own)]
+        combined.append(np.tensordot(coefficients.T, own[: len(coefficients)], axes=1))
+    return combined

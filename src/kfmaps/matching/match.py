@@ -1,4 +1,16 @@
-"""Match two shapes: the one call."""
+"""Match two shapes: the one call.
+
+1. Both shapes are prepared: cleaned, with their bases and descriptors (:mod:`kfmaps.shape`).
+2. Where one shape has much longer open boundaries than the other it may be a part of it. Then the part is placed on the
+   whole (:mod:`~kfmaps.matching.partial.match_partial`).
+3. Otherwise, or where that match is not sure, the shapes are matched as wholes: a search
+   (:mod:`~kfmaps.matching.search`) or one fit (:mod:`~kfmaps.matching.fit`) gives a functional map, which is refined on
+   all vertices and registered (:mod:`~kfmaps.matching.finish`).
+4. Where distances around many vertices are not preserved by the result, other candidates of the search are finished
+   too, and the best is kept.
+5. The most probable match is returned. Where a part was suspected and no match is sure, the match with the other shape
+   as the part is tried last.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +38,8 @@ from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchPart
 from kfmaps.matching.score import SCORE
-from kfmaps.matching.search import SearchResult, near_isometric, retry, search_map
+from kfmaps.matching.search import retry, search_map
+from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
@@ -47,9 +60,9 @@ def match(
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``, as :func:`kfmaps.match` does.
 
-    ``landmarks (l, 2)``: pairs "source vertex, target vertex", 0-based; ``probes``: what the search with this ``rng``
-    needs to know of each shape, from :func:`kfmaps.matching.search.scoring_samples`. They save an eighth of the time
-    where a shape is matched many times, and change nothing.
+    ``landmarks (l, 2)``: pairs "source vertex, target vertex", 0-based. ``probes``: samples of both shapes by
+    :func:`kfmaps.matching.search.scoring_samples` with the same ``rng``. They save an eighth of the time where a shape
+    is matched many times, and change nothing.
     """
     config = config or Config()
     prepared = prepare_both(source, target, config, progress=progress)
@@ -63,26 +76,52 @@ def match(
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     with limit_threads(config.threads):
-        seen = _part_suspected(task)
-        best, about = _match_part(task, seen)
-        may_be_whole = config.search is not None and seen.opening <= SCORE.part.max_hole_opening
+        detection = _detect_part(task)
+        best, as_wholes = _match_part(task, detection)
+        may_be_whole = config.search is not None and detection.opening <= SCORE.part.max_hole_opening
         if best is None or (best.verdict != "sure" and may_be_whole):
-            # A body with holes is found either way, one of other proportions as a whole alone.
-            best = _likelier(best, _match_wholes(replace(task, partial=about), marks, descriptors, probes))
-        if config.partial.part != "auto" or seen.which == "none" or best.verdict == "sure" or best.confidence is None:
+            # A body with holes is matched well either way, one of other proportions only as a whole.
+            best = _more_probable(best, _match_wholes(replace(task, partial=as_wholes), marks, descriptors, probes))
+        may_have_more = config.partial.part == "auto" and detection.which != "none"
+        if not may_have_more or best.verdict == "sure" or best.confidence is None:
             return best
-        return _compare_opposite(task, best, "target" if seen.which == "source" else "source")
+        return _compare_opposite(task, best, "target" if detection.which == "source" else "source")
 
 
-def _likelier(first: Match | None, second: Match) -> Match:
-    """Return the match that is more probably right, the ``first`` of two alike."""
+def _more_probable(first: Match | None, second: Match) -> Match:
+    """Return the match that is more probably right; the ``first`` where both are equally probable."""
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
 
 
-def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "target"]) -> Match:
-    """Return ``best``, or the match with the other shape as the part: a scan with its floor has more than its template.
+def _detect_part(task: MatchTask) -> PartDetection:
+    """Return which shape is a part: as the settings say or, with "auto", as the boundaries suggest."""
+    part, shapes = task.config.partial.part, task.shapes("preserving")
+    if part != "auto":
+        return PartDetection(part, "" if part == "none" else "as asked for", np.inf)
+    return detect_part(shapes[0].mesh, shapes[1].mesh)
 
-    One of the two has mostly shrunk as far as it may.
+
+def _match_part(task: MatchTask, detection: PartDetection) -> tuple[Match | None, MatchPart]:
+    """Return the match of a part and a whole, and what a match of whole shapes says about parts.
+
+    The match is ``None`` where no part is suspected, where each shape covers the other, and where the part does
+    not fit.
+    """
+    if detection.which == "none":
+        return None, MatchPart(reason=detection.reason)
+    with task.clock("parts"):
+        part, covers = match_partial(task, detection.which, detection.reason)
+    if task.config.partial.part != "auto" or (not covers and part.verdict != "unlikely"):
+        return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
+    but = "each covers all of the other" if covers else "it fits nowhere"
+    return None, MatchPart(reason=f"taken for whole: {detection.reason}, but {but}", suspected=True)
+
+
+def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "target"]) -> Match:
+    """Return ``best``, or the match with the other shape as the part.
+
+    A scan with its floor has more than its template. In one of the two matches the part has then mostly shrunk to the
+    least scale.
     """
     least = math.sqrt(SCORE.part.full_area)
     with task.clock("the other as a part"):
@@ -91,88 +130,71 @@ def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "ta
         return best
     scale = best.partial.scale
     has_shrunk = len(task.landmarks) == 0 and scale is not None and scale < SCORE.part.shrunk_scale
-    return opposite if has_shrunk else _likelier(best, opposite)
+    return opposite if has_shrunk else _more_probable(best, opposite)
 
 
 def _match_wholes(
     task: MatchTask,
-    marks: np.ndarray | None,
+    landmarks: np.ndarray | None,
     descriptors: tuple[Array, Array] | None,
     probes: tuple[ShapeSamples, ShapeSamples] | None,
 ) -> Match:
-    """The match of two whole shapes."""
-    config, progress = task.config, task.clock.report
+    """Return the match of two whole shapes, by a search or by one fit."""
+    config, report = task.config, task.clock.report
     if config.search is None:
-        return refine_and_register(task, _fit_once(task, marks, descriptors), None)
-    asked = config.search.orientation == "reversing"
-    shapes = task.shapes("reversing" if asked else "preserving")
+        return refine_and_register(task, _fit_once(task, landmarks, descriptors), None)
+    is_reversing = config.search.orientation == "reversing"
     with task.clock("candidates"):
         found = search_map(
-            *shapes,
+            *task.shapes("reversing" if is_reversing else "preserving"),
             config,
-            landmarks=marks,
+            landmarks=landmarks,
             descriptors=descriptors,
             rng=task.seed,
-            progress=progress,
-            probes=None if asked else probes,  # they are of the shapes as they were given
+            progress=report,
+            probes=None if is_reversing else probes,  # they are not of the mirror image
         )
-    best = refine_and_register(task, found, _search_guidance(found, task.shapes(found.orientation)))
-    return _try_others(task, found, best)
-
-
-def _part_suspected(task: MatchTask) -> PartDetection:
-    """Return which shape is a part: the one that was asked for, whatever the boundaries tell, or what they tell."""
-    asked, shapes = task.config.partial.part, task.shapes("preserving")
-    if asked != "auto":
-        return PartDetection(asked, "" if asked == "none" else "as asked for", np.inf)
-    return detect_part(shapes[0].mesh, shapes[1].mesh)
-
-
-def _match_part(task: MatchTask, seen: PartDetection) -> tuple[Match | None, MatchPart]:
-    """Return the match of a part and a whole, ``None`` where both are whole, and what a match of wholes says of it."""
-    if seen.which == "none":
-        return None, MatchPart(reason=seen.reason)
-    with task.clock("parts"):
-        part, covers = match_partial(task, seen.which, seen.reason)
-    if task.config.partial.part != "auto" or (not covers and part.verdict != "unlikely"):
-        return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
-    but = "each covers all of the other" if covers else "it fits nowhere"
-    return None, MatchPart(reason=f"taken for whole: {seen.reason}, but {but}", suspected=True)
+    return _retry_torn(task, found, _finish_result(task, found))
 
 
 def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[Array, Array] | None) -> SearchResult:
-    """The map of one fit, without a search."""
-    shapes = task.shapes("preserving")
-    one = fit(
-        *shapes, task.config, landmarks=landmarks, descriptors=descriptors, rng=task.seed, progress=task.clock.report
-    )
-    task.clock.seconds.update(one.seconds)
+    """Return the map of one fit, without a search."""
+    shapes, options = task.shapes("preserving"), {"rng": task.seed, "progress": task.clock.report}
+    result = fit(*shapes, task.config, landmarks=landmarks, descriptors=descriptors, **options)
+    task.clock.seconds.update(result.seconds)
     verdict = "unchecked" if landmarks is None else "landmarks"
     pairs = check_landmark_pairs(landmarks, *shapes)
-    return SearchResult(one.functional_map, ONE_FIT, one, verdict, landmarks=pairs)
+    return SearchResult(result.functional_map, ONE_FIT, result, verdict, landmarks=pairs)
 
 
-def _try_others(task: MatchTask, found: SearchResult, best: Match) -> Match:
-    """The best of a finished map and, where it is torn, the others that the search offers."""
+def _retry_torn(task: MatchTask, found: SearchResult, best: Match) -> Match:
+    """Return ``best`` or, where much of its area is torn, the best of it and the other results that a search offers."""
     for i in range(len(found.retries)):
         if (torn_area_fraction(best) or 0.0) <= SCORE.max_torn_area:
             break
         with task.clock(f"another way, {i + 1}"):
-            # With a lower score it would not be better even if nothing of it were torn.
+            # A candidate whose score is not above that of the match is no better even if none of its area is torn.
             other = retry(found, i, final_score(best))
             if other is not None:
-                apart = replace(task, clock=StageTimer(task.clock.report))
-                guidance = _search_guidance(other, task.shapes(other.orientation))
-                best = better_match(best, refine_and_register(apart, other, guidance))
+                retried = replace(task, clock=StageTimer(task.clock.report))
+                best = better_match(best, _finish_result(retried, other))
     return best
 
 
+def _finish_result(task: MatchTask, found: SearchResult) -> Match:
+    """Refine and register the map of a search with its guidance."""
+    return refine_and_register(task, found, _search_guidance(found, task.shapes(found.orientation)))
+
+
 def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> DescriptorGuidance | None:
-    """What guides the refinement of a map that a search has found."""
+    """Return the guidance for refining the map of a search on all vertices: SHOT, landmarks, extremities, positions.
+
+    Positions and normals take part where the search has registered the shapes, that is between unlike ones.
+    """
     meshes = [shape.mesh for shape in shapes]
     extremities = found.extremities and found.extremities.guide(meshes[0], meshes[1])
-    lead = LANDMARK_WEIGHT if near_isometric(found) else LANDMARK_WEIGHT_UNLIKE
-    guidance = build_guidance(*shapes, found.landmarks, extremities, found.shot_guidance, lead=lead)
+    weight = LANDMARK_WEIGHT if found.is_near_isometric else LANDMARK_WEIGHT_UNLIKE
+    guidance = build_guidance(*shapes, found.landmarks, extremities, found.shot_guidance, lead=weight)
     if found.registered_vertices is None:
         return guidance
     moved = 1 if found.swapped else 0

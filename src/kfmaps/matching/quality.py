@@ -1,6 +1,6 @@
-"""Samples of a shape that maps are judged on, and the measures of a map on them, without knowing the truth.
+"""Samples of a shape that maps are scored on, and the measures of a map on them, without knowing the truth.
 
-:func:`map_quality` measures a map on a few hundred points of each shape; :mod:`kfmaps.matching.score` weighs them.
+:func:`map_quality` measures a map on samples of both shapes; :mod:`kfmaps.matching.score` weighs the measures.
 """
 
 from __future__ import annotations
@@ -29,33 +29,33 @@ from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.evidence import coarse_copy
 from kfmaps.shape import Shape
 
-SURFACE = 6000
-"""Vertices from which distances and orientation are worked out on a coarse copy with that many."""
-LOW = 20
-"""Functions in which orientation is compared."""
-WAVES = 10
+MAX_SURFACE_VERTICES = 6000
+"""Vertices above which distances and orientation are computed on a coarse copy with that many."""
+ORIENTATION_FUNCTIONS = 20
+"""Functions in which orientation operators are compared."""
+N_ORIENTATION_OPERATORS = 10
 """Functions whose orientation operators are compared."""
 
 
 @dataclass(frozen=True, eq=False)
-class _Rows:
-    """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and :func:`descriptor_variance`."""
+class _DescriptorRows:
+    """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and their :func:`descriptor_variance`."""
 
     values: np.ndarray
     squares: np.ndarray
     variance: float
 
     @classmethod
-    def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> _Rows:
+    def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> _DescriptorRows:
         values = np.asarray(descriptors, dtype=precision)
         return cls(values, np.einsum("ij,ij->i", values, values), descriptor_variance(descriptors))
 
 
 @dataclass(frozen=True, eq=False)
 class ShapeSamples:
-    """What judging maps needs of one shape; made by :func:`sample_for_scoring`."""
+    """Samples of one shape, and all that scoring maps needs of it; made by :func:`sample_for_scoring`."""
 
-    samples: SpectralSamples  # farthest points; the first ``c`` of them are farthest points too
+    samples: SpectralSamples  # farthest points; the first c of them are farthest points too
     distances: np.ndarray  # (c, c): geodesic distances between the first points
     # (w, k, k): orientation operators of the first functions, in the first functions; ``None`` for a point cloud.
     orientation: np.ndarray | None
@@ -65,10 +65,10 @@ class ShapeSamples:
     landmark_distances: np.ndarray  # (l, q): geodesic distances from landmarks to the samples
     extremities: Extremities
     copy: CoarseProxy | None  # ``None`` for a point cloud
-    mirrored: bool = False  # whether it is of the mirror image
-    # (m, k, k): its near-symmetries (:func:`kfmaps.matching.self_maps.find_self_maps`) on its first samples, which are
-    # those of the mirror image too; ``None`` where they have not been looked for.
-    turns: np.ndarray | None = None
+    mirrored: bool = False  # whether the samples are of the mirror image
+    # (m, k, k): self-maps (:func:`kfmaps.matching.self_maps.find_self_maps`) on the coarse samples, which are those of
+    # the mirror image too; ``None`` where they have not been computed.
+    self_maps: np.ndarray | None = None
 
     @cached_property
     def functions(self) -> np.ndarray:
@@ -77,16 +77,17 @@ class ShapeSamples:
 
     @cached_property
     def areas(self) -> np.ndarray:
-        """The share of the area that each sample stands for, (q,)."""
+        """Share of the area of each sample, (q,)."""
         return to_numpy(self.samples.basis.mass) / float(self.samples.basis.mass.sum())
 
     @cached_property
     def extremity_areas(self) -> np.ndarray | None:
-        """The same of samples near extremities alone, of sum 1; ``None`` without extremities."""
-        ends = self.extremities
-        if len(ends.distances) == 0:
+        """The same of samples near extremities only, of sum 1; ``None`` without extremities."""
+        extremities = self.extremities
+        if len(extremities.distances) == 0:
             return None
-        near = np.where(ends.unit * ends.distances.min(axis=0) < SCORE.extremity_radius, self.areas, 0.0)
+        is_near = extremities.unit * extremities.distances.min(axis=0) < SCORE.extremity_radius
+        near = np.where(is_near, self.areas, 0.0)
         return near / near.sum() if near.any() else None
 
     @cached_property
@@ -95,7 +96,7 @@ class ShapeSamples:
 
     @cached_property
     def short_distances(self) -> ShortDistances:
-        """Those up to :attr:`Scoring.local_radius`; with few points, to the nearest."""
+        """Distances up to :attr:`Scoring.local_radius`, or between nearest points where that is longer."""
         return ShortDistances.of(self.distances)
 
     @cached_property
@@ -104,17 +105,17 @@ class ShapeSamples:
         return 0.0 if self.orientation is None else float(np.linalg.norm(self.orientation))
 
     @cached_property
-    def descriptor_rows(self) -> _Rows | None:
-        return None if self.descriptors is None else _Rows.of(self.descriptors)
+    def descriptor_rows(self) -> _DescriptorRows | None:
+        return None if self.descriptors is None else _DescriptorRows.of(self.descriptors)
 
     @cached_property
-    def heat_rows(self) -> _Rows:
-        return _Rows.of(self.heat, np.float64)
+    def heat_rows(self) -> _DescriptorRows:
+        return _DescriptorRows.of(self.heat, np.float64)
 
 
 @dataclass(frozen=True, eq=False)
 class ShortDistances:
-    """Which of the flattened distances are short, ``at (p,)``, and their mean."""
+    """Where the flattened distances are short, ``at (p,)``, and their mean."""
 
     at: np.ndarray
     mean: float
@@ -125,8 +126,8 @@ class ShortDistances:
         at = np.flatnonzero(distances <= max(SCORE.local_radius, float(nearest_other.max())))
         return cls(at, float(distances.ravel()[at].mean()))
 
-    def change(self, change: np.ndarray) -> float:
-        """Return the mean of ``change`` where distances are short, over the mean of these."""
+    def relative_change(self, change: np.ndarray) -> float:
+        """Return the mean ``change`` of the short distances, divided by their mean."""
         return float(change.ravel()[self.at].mean()) / self.mean if self.mean > 0 else 0.0
 
 
@@ -138,88 +139,89 @@ def sample_for_scoring(
 ) -> ShapeSamples:
     """Sample ``count`` points of ``shape`` and compute what :func:`map_quality` compares.
 
-    ``landmarks (l,)``: vertices whose distances to the samples are wanted too.
+    ``landmarks (l,)``: vertices whose distances to the samples are computed too.
     """
     samples = spectral_samples(shape.basis, count, rng)
-    marked = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
+    landmarks = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
     first = samples.vertices[:300]  # the first of them, between which geodesic distances are compared
-    mesh, functions, rows = sample_surface(shape, np.concatenate([samples.vertices, marked]))
+    mesh, functions, rows = sample_surface(shape, np.concatenate([samples.vertices, landmarks]))
+    rows, landmark_rows = rows[: len(samples.vertices)], rows[len(samples.vertices) :]
     graph = geodesic_graph(mesh, 1)
-    close = pairwise_geodesics(graph, rows[: len(first)])
+    distances = pairwise_geodesics(graph, rows[: len(first)])
     # Separate components are as far apart as the farthest points of one.
-    joined = np.isfinite(close)
-    farthest = close[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
-    close = np.where(joined, close, farthest)
-    marks = np.zeros((0, len(samples.vertices)))
-    if len(marked):
-        marks = dijkstra(graph, indices=rows[len(samples.vertices) :])[:, rows[: len(samples.vertices)]]
-        joined = np.isfinite(marks)
-        marks = np.where(joined, marks, max(farthest, marks[joined].max(initial=0.0)))
+    is_finite = np.isfinite(distances)
+    farthest = distances[is_finite].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
+    distances = np.where(is_finite, distances, farthest)
+    landmark_distances = np.zeros((0, len(rows)))
+    if len(landmarks):
+        landmark_distances = dijkstra(graph, indices=landmark_rows)[:, rows]
+        is_finite = np.isfinite(landmark_distances)
+        farthest = max(farthest, landmark_distances[is_finite].max(initial=0.0))
+        landmark_distances = np.where(is_finite, landmark_distances, farthest)
     orientation = None
     if len(shape.mesh.faces):
-        operators = 50  # functions of the orientation operators that a probe keeps, also for fits
-        low = Basis(shape.basis.eigenvalues, functions[:, :operators], shape.basis.mass)
-        orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES])
-    local = None if shape.shot is None else shape.shot[samples.vertices]
-    heat = log_heat_signature(samples.basis)
+        size = 50  # functions that the orientation operators are written in, as many as fits need
+        low = Basis(shape.basis.eigenvalues, functions[:, :size], shape.basis.mass)
+        orientation = orientation_operators(mesh, low, functions[:, : 4 * N_ORIENTATION_OPERATORS])
     return ShapeSamples(
         samples,
-        close,
+        distances,
         orientation,
-        local,
-        heat,
-        shape.mesh.vertices[samples.vertices],
-        marks,
-        extremities(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)], graph),
-        coarse_copy(shape),
+        descriptors=None if shape.shot is None else shape.shot[samples.vertices],
+        heat=log_heat_signature(samples.basis),
+        positions=shape.mesh.vertices[samples.vertices],
+        landmark_distances=landmark_distances,
+        extremities=extremities(distances, areas_of_first(samples.basis, len(first)), mesh, rows, graph),
+        copy=coarse_copy(shape),
     )
 
 
-def sample_surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
-    """Return the surface or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
-    if len(shape.mesh.vertices) <= SURFACE:
-        return shape.mesh, to_numpy(shape.basis.functions), wanted
-    vertices = stratified_vertices(shape.basis, SURFACE, 0, np.unique(wanted))
+def sample_surface(shape: Shape, kept: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
+    """Return the surface or a coarse copy of a large one, the basis on it, and the numbers of the ``kept`` vertices."""
+    if len(shape.mesh.vertices) <= MAX_SURFACE_VERTICES:
+        return shape.mesh, to_numpy(shape.basis.functions), kept
+    vertices = stratified_vertices(shape.basis, MAX_SURFACE_VERTICES, 0, np.unique(kept))
     mesh = coarsen(shape.mesh, vertices)
-    return mesh, to_numpy(shape.basis.functions)[vertices], np.searchsorted(vertices, wanted)
+    return mesh, to_numpy(shape.basis.functions)[vertices], np.searchsorted(vertices, kept)
 
 
-def subsample(probe: ShapeSamples, count: int) -> ShapeSamples:
-    """Return the first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
-    basis = probe.samples.basis
-    if count >= len(probe.samples.vertices):
-        return probe
+def subsample(shape: ShapeSamples, count: int) -> ShapeSamples:
+    """Return the first ``count`` samples, which are farthest points too, with the areas of the others added to them."""
+    basis = shape.samples.basis
+    if count >= len(shape.samples.vertices):
+        return shape
     areas = areas_of_first(basis, count)
-    few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
+    first = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
     return replace(
-        probe,
-        samples=SpectralSamples(probe.samples.vertices[:count], few),
-        distances=probe.distances[: count // 2, : count // 2],
-        descriptors=None if probe.descriptors is None else probe.descriptors[:count],
-        heat=probe.heat[:count],
-        positions=probe.positions[:count],
-        landmark_distances=probe.landmark_distances[:, :count],
-        extremities=probe.extremities.subsample(count),
+        shape,
+        samples=SpectralSamples(shape.samples.vertices[:count], first),
+        distances=shape.distances[: count // 2, : count // 2],
+        descriptors=None if shape.descriptors is None else shape.descriptors[:count],
+        heat=shape.heat[:count],
+        positions=shape.positions[:count],
+        landmark_distances=shape.landmark_distances[:, :count],
+        extremities=shape.extremities.subsample(count),
     )
 
 
 def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
-    """Return the areas (count,) that the first samples stand for when the others are given to the nearest of them."""
-    functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
+    """Return the areas (count,) of the first samples, with the area of each other sample added to the nearest one."""
+    low = slice(1, 21)  # functions after the constant one that samples are compared by
+    functions, values = to_numpy(basis.functions)[:, low], to_numpy(basis.eigenvalues)[low]
     embedding = functions / np.maximum(values, max(1e-6 * values[-1], eigenvalue_tolerance(basis)))
     closest = nearest(embedding, embedding[:count])
     return np.bincount(closest, to_numpy(basis.mass), minlength=count)
 
 
-def mirror_samples(probe: ShapeSamples) -> ShapeSamples:
+def mirror_samples(shape: ShapeSamples) -> ShapeSamples:
     """Return the samples of the mirror image of the shape, with the same vertices."""
     return replace(
-        probe,
-        descriptors=None if probe.descriptors is None else mirror_shot(probe.descriptors),
-        orientation=None if probe.orientation is None else -probe.orientation,
-        extremities=probe.extremities.mirrored(),
-        copy=None if probe.copy is None else probe.copy.mirrored(),
-        mirrored=not probe.mirrored,
+        shape,
+        descriptors=None if shape.descriptors is None else mirror_shot(shape.descriptors),
+        orientation=None if shape.orientation is None else -shape.orientation,
+        extremities=shape.extremities.mirrored(),
+        copy=shape.copy and shape.copy.mirrored(),
+        mirrored=not shape.mirrored,
     )
 
 
@@ -230,35 +232,35 @@ def map_quality(C: Array, source: ShapeSamples, target: ShapeSamples, points: np
     """
     C = to_numpy(C)
     k_t, k_s = C.shape
-    pairs = _matched(C, source, target, points)
+    pairs = _nearest_samples(C, source, target, points)
     values_s, values_t = (to_numpy(p.samples.basis.eigenvalues)[:k] for p, k in ((source, k_s), (target, k_t)))
     distortion, local_distortion = _distortion(pairs, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
-    sides = (target, source, pairs.back), (source, target, pairs.forth)
-    local = [_squares(at, one.descriptor_rows, other.descriptor_rows, FLAT) for one, other, at in sides]
-    heat = [_squares(at, one.heat_rows, other.heat_rows, SCORE.min_heat_variance) for one, other, at in sides]
-    covered = [other.areas[np.bincount(at, minlength=len(other.areas)) > 0].sum() for _, other, at in sides]
-    areas, ends = [one.areas for one, *_ in sides], [one.extremity_areas for one, *_ in sides]
+    directions = (target, source, pairs.back), (source, target, pairs.forth)
+    shot = [_squares(at, one.descriptor_rows, other.descriptor_rows, FLAT) for one, other, at in directions]
+    heat = [_squares(at, one.heat_rows, other.heat_rows, SCORE.min_heat_variance) for one, other, at in directions]
+    covered = [other.areas[np.bincount(at, minlength=len(other.areas)) > 0].sum() for _, other, at in directions]
+    areas = [one.areas for one, *_ in directions]
     return Quality(
         orientation=_orientation(C, source, target),
         distortion=distortion,
         local_distortion=local_distortion,
-        descriptors=_both_means(local, areas),
-        heat=_both_means(heat, areas),
+        descriptors=_mean_of_directions(shot, areas),
+        heat=_mean_of_directions(heat, areas),
         coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
-        extremity_descriptor_error=_both_means(local, ends),
+        extremity_descriptor_error=_mean_of_directions(shot, [one.extremity_areas for one, *_ in directions]),
     )
 
 
 def map_distortion(C: Array, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None = None) -> float:
     """Return :attr:`Quality.distortion` alone; the parameters are those of :func:`map_quality`."""
-    return _distortion(_matched(to_numpy(C), source, target, points), source, target)[0]
+    return _distortion(_nearest_samples(to_numpy(C), source, target, points), source, target)[0]
 
 
 @dataclass(frozen=True, eq=False)
-class _Matched:
-    """The nearest sample on the other shape, of all samples and, among the first, of the first."""
+class _NearestSamples:
+    """The nearest sample on the other shape of each sample, and the same among the first samples alone."""
 
     back: np.ndarray
     forth: np.ndarray
@@ -266,7 +268,9 @@ class _Matched:
     first_forth: np.ndarray
 
 
-def _matched(C: np.ndarray, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None) -> _Matched:
+def _nearest_samples(
+    C: np.ndarray, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None
+) -> _NearestSamples:
     """Return nearest neighbours in both directions, from one product in single precision."""
     k_t, k_s = C.shape
     images = source.functions[:, :k_s] @ np.asarray(C.T, dtype=np.float32)
@@ -279,36 +283,36 @@ def _matched(C: np.ndarray, source: ShapeSamples, target: ShapeSamples, points: 
     score -= half_t
     forth = score.argmax(axis=1)
     if first is None:
-        return _Matched(back, forth, back, forth)
+        return _NearestSamples(back, forth, back, forth)
     first_back = (first.T - half_s[:c_s]).argmax(axis=1)
     first -= half_t[:c_t]
-    return _Matched(back, forth, first_back, first.argmax(axis=1))
+    return _NearestSamples(back, forth, first_back, first.argmax(axis=1))
 
 
-def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
-    """``part / whole``, but ``otherwise`` where ``whole`` is rounding beside its usual size, ``scale``.
+def _ratio(numerator: float, denominator: float, scale: float, otherwise: float) -> float:
+    """Return a ratio, or ``otherwise`` where the denominator is a rounding error of numbers of the size of ``scale``.
 
-    What is zero in exact arithmetic comes out as zero on one machine and as 1e-16 on another.
+    A denominator of zero in exact arithmetic comes out as zero on one machine and as 1e-16 on another.
     """
-    return float(part / whole) if whole > 1e-12 * scale else otherwise
+    return float(numerator / denominator) if denominator > 1e-12 * scale else otherwise
 
 
 def _orientation(C: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> float:
     if source.orientation is None or target.orientation is None:
         return 0.0
-    low = min(LOW, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
-    waves = min(WAVES + 1, C.shape[1], len(source.orientation))
+    low = min(ORIENTATION_FUNCTIONS, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
+    last = min(N_ORIENTATION_OPERATORS + 1, C.shape[1], len(source.orientation))
     rows = min(len(target.orientation), C.shape[0])
     square = C[:low, :low]
-    ours = square @ source.orientation[1:waves, :low, :low] @ square.T
-    theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
-    size = np.sqrt((ours**2).sum() * (theirs**2).sum())
-    # Of a map that carries next to nothing but constants both are rounding, and so would their correlation be.
+    transferred = square @ source.orientation[1:last, :low, :low] @ square.T
+    own = np.tensordot(C[:rows, 1:last].T, target.orientation[:rows, :low, :low], axes=1)
+    norms = np.sqrt((transferred**2).sum() * (own**2).sum())
+    # For a map of little more than constants both are rounding errors, and so would their correlation be.
     usual = np.linalg.norm(C) ** 3 * source.orientation_norm * target.orientation_norm
-    return _ratio((ours * theirs).sum(), size, float(usual), 0.0)
+    return _ratio((transferred * own).sum(), norms, float(usual), 0.0)
 
 
-def _distortion(pairs: _Matched, source: ShapeSamples, target: ShapeSamples) -> tuple[float, float]:
+def _distortion(pairs: _NearestSamples, source: ShapeSamples, target: ShapeSamples) -> tuple[float, float]:
     """Return the mean change of all distances and of the short ones, both divided by their mean."""
     near, far = [], 0.0
     for one, other, at in ((target, source, pairs.first_back), (source, target, pairs.first_forth)):
@@ -316,17 +320,17 @@ def _distortion(pairs: _Matched, source: ShapeSamples, target: ShapeSamples) -> 
         change -= one.distances
         np.abs(change, out=change)
         far += float(change.mean())
-        near.append(one.short_distances.change(change))
+        near.append(one.short_distances.relative_change(change))
     mean = source.mean_distance + target.mean_distance
     return far / mean if mean > 0 else 0.0, float(np.mean(near))
 
 
 def _squares(
-    points: np.ndarray, one: _Rows | None, other: _Rows | None, flat: float
+    points: np.ndarray, one: _DescriptorRows | None, other: _DescriptorRows | None, flat: float
 ) -> tuple[np.ndarray, float] | None:
     """Return squared differences of descriptors of ``one`` from those of the ``points`` of the other.
 
-    Beside them that of random points. ``flat``: variance below which descriptors are noise.
+    Also return the squared difference of random points. ``flat``: variance below which descriptors are noise.
     """
     if one is None or other is None:
         return None
@@ -335,7 +339,7 @@ def _squares(
     return squares, max(one.variance + other.variance, 2 * flat)
 
 
-def _both_means(squares: list[tuple[np.ndarray, float] | None], areas: Sequence[np.ndarray | None]) -> float:
-    """Return the mean of both directions, weighted with ``areas`` of sum 1; an unknown one counts 0."""
+def _mean_of_directions(squares: list[tuple[np.ndarray, float] | None], areas: Sequence[np.ndarray | None]) -> float:
+    """Return the mean of both directions, weighted with ``areas`` of sum 1; a direction without any counts 0."""
     known = [(s, a) for s, a in zip(squares, areas, strict=True) if s is not None and a is not None]
     return 0.5 * sum(float(s[0] @ a / s[1]) for s, a in known)

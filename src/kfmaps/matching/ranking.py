@@ -1,8 +1,12 @@
-"""The order of candidates: by their scores, and the first few by how far they bend the shapes and how these look then.
+"""Rank the distinct candidates of a search: by their scores, the first few also by registration.
 
-The score is intrinsic, and a map that swaps front and back together with left and right may come first by it. What
-bending says (:mod:`kfmaps.registration.evidence`) costs too much for all, and so it is asked of those that
-may be the best.
+The score of a map alone is intrinsic, and a map that swaps front and back together with left and right may come first
+by it. The evidence of a registration (:mod:`kfmaps.registration.evidence`) tells such a map from the right one, but
+takes too long to compute for all candidates. So it is computed in two steps:
+
+1. Coarse proxies are registered as each of the first few candidates says, and the deformation energy joins the score.
+2. Where the first two are close after that, SHOT of the registered proxies is compared too. Where they are very close,
+   they are registered once more with finer proxies.
 """
 
 from __future__ import annotations
@@ -25,29 +29,31 @@ from kfmaps.registration.alternating_registration import ProxyPair, proxy_pair
 from kfmaps.registration.evidence import FINE_VERTICES, PATIENT, coarse_copy, deform, registered_shot_error
 from kfmaps.shape import Shape, mirror_image
 
-BENT = 3
-"""Distinct maps that are registered."""
-RELATIVE = ("strain", "shot_error")
-"""Evidence of a candidate that tells only beside that of others."""
+N_REGISTERED = 3
+"""Distinct candidates that are registered."""
+N_NEAR_DUPLICATES = 5
+"""Candidates near a better one that are registered too."""
+RELATIVE_EVIDENCE = ("strain", "shot_error")
+"""Evidence of a candidate that counts only against that of other candidates."""
 
 
 @dataclass(frozen=True, eq=False)
 class ProxyCache:
-    """Copies of two shapes, made when they are first asked for; ``None`` where a shape has no faces to bend."""
+    """Coarse proxies of two shapes, built when they are first used; ``None`` where a shape has no faces."""
 
     source: Shape
     target: Shape
-    copies: tuple[CoarseProxy | None, CoarseProxy | None]  # of few points, as the samples have them
-    mirrored: bool = False  # whether they are of the target's mirror image
+    copies: tuple[CoarseProxy | None, CoarseProxy | None]  # those that the samples have
+    mirrored: bool = False  # whether the second is of the target's mirror image
 
     @classmethod
     def of(cls, source: Shape, target: Shape, samples: SamplePair) -> ProxyCache:
-        """Return the cache of two shapes, with the coarse copies that their samples have."""
+        """Return the cache of two shapes, with the coarse proxies of their samples."""
         return cls(source, target, (samples.source.copy, samples.target.copy), samples.target.mirrored)
 
     @cached_property
     def image(self) -> Shape:
-        """The target, or its mirror image where that is meant."""
+        """The target, mirrored where the candidates are maps to its mirror image."""
         return mirror_image(self.target) if self.mirrored else self.target
 
     @cached_property
@@ -57,39 +63,40 @@ class ProxyCache:
 
     @cached_property
     def coarse(self) -> ProxyPair | None:
-        """The coarse ones."""
-        a, b = self.copies
-        return None if a is None or b is None else proxy_pair(self.source, self.image, (a, b))
+        """The proxies of the samples."""
+        return self._pair(*self.copies)
 
     @cached_property
     def fine(self) -> ProxyPair | None:
-        """Finer ones."""
+        """Proxies with more vertices."""
         a, b = coarse_copy(self.source, FINE_VERTICES), coarse_copy(self.target, FINE_VERTICES)
-        if a is None or b is None:
-            return None
-        return proxy_pair(self.source, self.image, (a, b.mirrored() if self.mirrored else b))
+        return self._pair(a, b.mirrored() if b is not None and self.mirrored else b)
+
+    def _pair(self, a: CoarseProxy | None, b: CoarseProxy | None) -> ProxyPair | None:
+        return None if a is None or b is None else proxy_pair(self.source, self.image, (a, b))
 
 
 def ranking(
     found: list[Candidate],
     samples: SamplePair,
-    copies: ProxyCache,
+    proxies: ProxyCache,
     least: float = -np.inf,
 ) -> list[Candidate]:
-    """Return the distinct ones of ``found``, best first; the first few also by how far the source must bend.
+    """Return the distinct ones of the candidates, best first; the first few with their deformation energies.
 
-    Of the first two, where they are close and the score of the first is above ``least``, how they look then counts too.
+    SHOT errors after registration count too where the first two are close and the score of the first is above
+    ``least``.
     """
-    ranked = distinct(found, samples.source)
-    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - SCORE.max_behind]
-    tried = with_bending(near, copies)
-    if not tried:
+    ranked = distinct_candidates(found, samples.source)
+    near = [c for c in ranked[:N_REGISTERED] if c.score > ranked[0].score - SCORE.max_behind]
+    registered = with_deformation_energy(near, proxies)
+    if not registered:
         return ranked
-    # As bad as the worst, so that none that was not tried comes first.
-    worst = max(c.deformation_energy for c in tried if c.deformation_energy is not None)
-    order = in_order([*tried, *(replace(c, deformation_energy=worst) for c in ranked[len(near) :])])
+    # The others count as the worst that is registered, so that none of them comes first.
+    worst = max(c.deformation_energy for c in registered if c.deformation_energy is not None)
+    order = by_preference([*registered, *(replace(c, deformation_energy=worst) for c in ranked[len(near) :])])
     if len(near) > 1 and order[0].score - order[1].score < SCORE.shot_margin and order[0].score > least:
-        return rerank_close(order, copies)
+        return rerank_close(order, proxies)
     return order
 
 
@@ -97,79 +104,79 @@ def rerank_near_duplicates(
     ranked: list[Candidate],
     found: list[Candidate],
     samples: SamplePair,
-    copies: ProxyCache,
+    proxies: ProxyCache,
     distance: float = SCORE.rough_distance,
     behind: float = np.inf,
 ) -> list[Candidate]:
-    """Return ``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
+    """Return ``ranked`` with candidates between them that differ from a better one by little more than ``distance``.
 
-    A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
-    both are bent. None that is farther ``behind`` before that.
+    A map with one limb wrong is near the right one, and may come before it by chance. Registration shows which of them
+    is torn. Candidates whose scores are farther ``behind`` are left out.
     """
-    closer = 5  # maps that may be closer to each other and are registered too
-    best = distinct_maps(in_order(found), samples.source, distance, closer)
+    best = distinct_maps(by_preference(found), samples.source, distance, N_NEAR_DUPLICATES)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
-    return in_order([*ranked, *with_bending(more, copies)])
+    return by_preference([*ranked, *with_deformation_energy(more, proxies)])
 
 
-def with_bending(found: list[Candidate], copies: ProxyCache) -> list[Candidate]:
-    """Return ``found`` with how far the coarse copies must bend, unknown where a shape has no copy to bend."""
-    if not found or copies.coarse is None:
+def with_deformation_energy(found: list[Candidate], proxies: ProxyCache) -> list[Candidate]:
+    """Return candidates with the deformation energies of the coarse proxies; none where a shape has no proxy."""
+    pair = proxies.coarse
+    if not found or pair is None:
         return []
-    pair = copies.coarse
     energies = parallel(lambda c: deform(c.functional_map, pair).energy, found)
     return [replace(c, deformation_energy=energy) for c, energy in zip(found, energies, strict=True)]
 
 
-def rerank_close(order: list[Candidate], copies: ProxyCache) -> list[Candidate]:
-    """Return the first two with how they look when bent; where they are close, bent with more points and patience too.
+def rerank_close(order: list[Candidate], proxies: ProxyCache) -> list[Candidate]:
+    """Return the candidates with the SHOT errors of the first two after registration, best first.
 
-    A map that swaps front and back may come first by a margin that leaves no doubt to the score.
+    Where the first two are very close they are registered with finer proxies too. A map that swaps front and back may
+    come first by a margin that leaves no doubt to the score.
     """
-    finer = copies.fine
-    if finer is None:
+    pair = proxies.fine
+    if pair is None:
         return order
-    close = order[0].score - order[1].score < SCORE.close_margin
+    are_close = order[0].score - order[1].score < SCORE.close_margin
 
-    def with_shot_error(found: Candidate) -> Candidate:
-        found = score_registered(found, finer) if close else found
-        return replace(found, shot_error=registered_shot_error(found.functional_map, finer))
+    def with_shot_error(candidate: Candidate) -> Candidate:
+        candidate = score_registered(candidate, pair) if are_close else candidate
+        return replace(candidate, shot_error=registered_shot_error(candidate.functional_map, pair))
 
-    found = parallel(with_shot_error, order[:2])
-    # Nothing is added for looks: the best is compared with maps that nobody has looked at.
-    middle = reference_values(found, np.mean)[0], reference_values(found, min)[1]
-    return in_order([normalize_errors(c, middle) for c in found]) + order[2:]
+    first = parallel(with_shot_error, order[:2])
+    # The lower SHOT error costs nothing: the best is compared with candidates that have no SHOT error.
+    reference = reference_values(first, np.mean)[0], reference_values(first, min)[1]
+    return by_preference([normalize_errors(c, reference) for c in first]) + order[2:]
 
 
-def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
-    """Return a candidate with what its map says when the copies are bent with more patience."""
-    one = deform(found.functional_map, pair, PATIENT)
-    return replace(found, deformation_energy=one.energy, strain=one.strain, shot_error=None)
+def score_registered(candidate: Candidate, pair: ProxyPair) -> Candidate:
+    """Return a candidate with the deformation energy and the strain of a longer registration of the proxies."""
+    deformed = deform(candidate.functional_map, pair, PATIENT)
+    return replace(candidate, deformation_energy=deformed.energy, strain=deformed.strain, shot_error=None)
 
 
 def reference_values(found: list[Candidate], of: Callable[[list[float]], float]) -> tuple[float, ...]:
-    """Return what each of :data:`RELATIVE` of candidates is compared with: all depend on the shapes."""
-    known = ([value for c in found if (value := getattr(c, name)) is not None] for name in RELATIVE)
+    """Return ``of`` the values of each :data:`RELATIVE_EVIDENCE`, by which candidates are compared; 0 without any."""
+    known = ([value for c in found if (value := getattr(c, name)) is not None] for name in RELATIVE_EVIDENCE)
     return tuple(float(of(values)) if values else 0.0 for values in known)
 
 
-def normalize_errors(found: Candidate, usual: tuple[float, ...]) -> Candidate:
-    """Return a candidate with its :data:`RELATIVE` evidence, where it is known, less the ``usual``."""
-    values = ((name, getattr(found, name), least) for name, least in zip(RELATIVE, usual, strict=True))
-    changed: dict[str, Any] = {name: value - least for name, value, least in values if value is not None}
-    return replace(found, **changed)
+def normalize_errors(candidate: Candidate, reference: tuple[float, ...]) -> Candidate:
+    """Return a candidate with its :data:`RELATIVE_EVIDENCE`, where it has been computed, less the reference values."""
+    values = ((name, getattr(candidate, name), usual) for name, usual in zip(RELATIVE_EVIDENCE, reference, strict=True))
+    changed: dict[str, Any] = {name: value - usual for name, value, usual in values if value is not None}
+    return replace(candidate, **changed)
 
 
-def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
-    """Return the best of ``found``, then the best of those that differ from it, and so on."""
-    return distinct_maps(in_order(found), source, SCORE.distinct_distance)
+def distinct_candidates(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
+    """Return the best candidate, then the best of those that differ from it, and so on."""
+    return distinct_maps(by_preference(found), source, SCORE.distinct_distance)
 
 
-def in_order(found: list[Candidate]) -> list[Candidate]:
-    """Return them best first.
+def by_preference(found: list[Candidate]) -> list[Candidate]:
+    """Return the candidates by their scores, best first; one with descriptors first where it is nearly the best.
 
-    A rival, which no descriptors speak for, comes first only when it is clearly better than every other candidate.
+    A candidate that was refined without descriptors comes first only where it is clearly better than all with them.
     """
     order = by_score(found)
     best = next((c for c in order if c.uses_descriptors), None)

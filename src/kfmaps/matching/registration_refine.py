@@ -1,14 +1,17 @@
-"""Repair the candidates between shapes that differ much: register and refine in turn, and compare them once more.
+"""Repair the best candidates between unlike shapes by registration, and rank them again.
 
-:mod:`kfmaps.registration.alternating_registration` repairs one map; this module decides which are worth it, with what
-each begins, what of it counts, and which comes first then.
+Between shapes that differ much ZoomOut leaves limbs torn. :mod:`kfmaps.registration.alternating_registration` repairs a
+map by rounds of registration and refinement on proxies. This module
+
+1. chooses the candidates that are worth a repair, and adds maps of likely extremity matches that none of them has;
+2. repairs all by one round, and those that are not too far behind then by a second one;
+3. ranks the repaired candidates by their scores, with the evidence of a longer registration.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -18,7 +21,7 @@ from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.matching.candidates import FINE, distinct_maps, score_maps
+from kfmaps.matching.candidates import FINE_FUNCTIONS, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityVertices,
     complete_match,
@@ -30,16 +33,25 @@ from kfmaps.matching.extremity_matching import (
 from kfmaps.matching.initial_maps import EXTREMITY_FUNCTIONS, Start, paired_map
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.quality import ShapeSamples
-from kfmaps.matching.ranking import BENT, ProxyCache, in_order, normalize_errors, reference_values, score_registered
+from kfmaps.matching.ranking import (
+    N_REGISTERED,
+    ProxyCache,
+    by_preference,
+    normalize_errors,
+    reference_values,
+    score_registered,
+)
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.registration.alternating_registration import AlternatingResult, ProxyPair, alternating_registration
 from kfmaps.registration.evidence import registered_shot_error
 
-FIRST = 2
-"""Maps that are repaired, whether or not they differ."""
-PAIRED = 3
-"""Likeliest extremity matches that repairs begin with, where no map that is repaired has the same."""
+N_REPAIRED = 2
+"""First candidates that are repaired, whether or not they differ."""
+N_MATCHES = 3
+"""Likeliest extremity matches that are repaired, unless a candidate has the same."""
+N_RETRIES = 2
+"""Repaired candidates after the best that may turn out better on all vertices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,130 +64,180 @@ class RepairSetting:
     shot: DescriptorGuidance | None
     graphs: tuple[csr_array, csr_array]  # geodesic graphs of both meshes, of depth 1
 
+    def with_shot_error(self, candidate: Candidate) -> Candidate:
+        """Return a candidate with its SHOT error after registration."""
+        return replace(candidate, shot_error=registered_shot_error(candidate.functional_map, self.proxies))
+
+
+@dataclass(frozen=True, eq=False)
+class Repair:
+    """A map to be repaired."""
+
+    setting: RepairSetting
+    start: Candidate
+    extremities: ExtremityVertices | None  # those that the map matches, which the repair keeps to
+    is_candidate: bool = True  # whether the map was a candidate before; else an extremity match gives it
+
+    def rounds(self, swapped: bool = True) -> Iterator[Candidate | None]:
+        """Register and refine the map; yields the candidate of each round, ``None`` as the last where it fails.
+
+        ``swapped``: whether the target is registered onto the source.
+        """
+        setting, pair = self.setting, self.setting.proxies
+        shapes, landmarks = (pair.source, pair.target), setting.landmarks
+        limbs = self.extremities and self.extremities.guide(pair.source.mesh, pair.target.mesh, setting.graphs)
+        guidance = build_guidance(*shapes, landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
+        for result in register_map_on_proxies(self.start.functional_map, pair, guidance, landmarks, swapped):
+            if result is None:
+                yield None
+                return
+            C, before = result.functional_map[:FINE_FUNCTIONS, :FINE_FUNCTIONS], self.start
+            candidate = score_maps([Start(before.name, C, before.uses_descriptors, fit=before.fit)], setting.samples)
+            yield replace(candidate[0], registered_vertices=result.registered_vertices, swapped=swapped)
+
+    def finish(self, first: Candidate | None, rest: Iterator[Candidate | None]) -> Candidate | None:
+        """Return the best result after the ``first`` round and the ``rest`` of them; ``None`` where there is none.
+
+        Where the repair has made a candidate worse, the candidate before and the repair with the source registered onto
+        the target are compared with it: where a body touches itself the right map may be lost in one direction only.
+        """
+        *_, last = first, *rest
+        if last is None and self.is_candidate:
+            return self.start
+        if last is None:
+            return first and score_registered(first, self.setting.proxies)
+        results = [last]
+        if self.is_candidate and _quality(last) < _quality(self.start):
+            *_, opposite = self.rounds(swapped=False)
+            results += [self.start] if opposite is None else [self.start, opposite]
+        least = max(map(_quality, results)) - SCORE.repair_lag
+        scored = [score_registered(c, self.setting.proxies) for c in results if _quality(c) >= least]
+        return max(scored, key=lambda c: c.score)
+
 
 @dataclass(frozen=True, eq=False)
 class SwappedRepair:
-    """A repair that was not made: of the ``candidate``, the source registered onto the target.
+    """A repair that was not made yet: the source registered onto the target.
 
-    ``reference``: :data:`RELATIVE` evidence of the best repaired candidates, over which its own counts.
+    ``reference``: values of :data:`~kfmaps.matching.ranking.RELATIVE_EVIDENCE` that its own are compared with.
     """
 
-    setting: RepairSetting
-    candidate: Candidate
-    extremities: ExtremityVertices | None
+    repair: Repair
     reference: tuple[float, ...]
 
     def make(self) -> Candidate | None:
-        """Return the repaired candidate; ``None`` where the registration falls apart."""
-        *_, made = _repair_rounds(self.setting, self.candidate, self.extremities, swapped=False)
+        """Return the repaired candidate; ``None`` where the registration fails."""
+        *_, made = self.repair.rounds(swapped=False)
         if made is None:
             return None
-        made = _with_shot_error(self.setting, score_registered(made, self.setting.proxies))
-        return normalize_errors(made, self.reference)
+        setting = self.repair.setting
+        return normalize_errors(setting.with_shot_error(score_registered(made, setting.proxies)), self.reference)
 
 
 def refine_by_registration(
     ranked: list[Candidate],
     samples: SamplePair,
-    copies: ProxyCache,
+    proxies: ProxyCache,
     landmarks: np.ndarray,
     progress: Progress | None = None,
 ) -> tuple[list[Candidate], tuple[Candidate | SwappedRepair, ...]]:
     """Repair the best candidates between unlike shapes, and rank them again.
 
-    The target is registered onto the source, so that each direction has its say: what follows registers the source onto
-    the target. Where that has made a candidate worse, it counts as the best of that, of the source registered onto the
-    target, and of what it was. Repairs keep to the extremities that a map takes to each other, so the likeliest matches
-    of extremities that none of the maps has begin repairs too.
+    A repair registers the target onto the source; the registration on all vertices that follows a search registers the
+    source onto the target, so both directions take part.
 
-    Returns ``ranked``; ``retries``: what may turn out better than the first on all vertices: the next that were
-    repaired, and the first repaired the other way round.
+    Returns the ranked candidates, and those that may turn out better than the first on all vertices: the next repaired
+    ones, and the repair of the first in the other direction.
     """
-    finer = copies.fine
-    if finer is None:
+    fine = proxies.fine
+    if fine is None:
         return ranked, ()
-    graphs = geodesic_graph(copies.source.mesh, 1), geodesic_graph(copies.image.mesh, 1)
-    setting = RepairSetting(finer, samples, landmarks, copies.shot_guidance, graphs)
+    graphs = geodesic_graph(proxies.source.mesh, 1), geodesic_graph(proxies.image.mesh, 1)
+    setting = RepairSetting(fine, samples, landmarks, proxies.shot_guidance, graphs)
     near, rest = repairable(ranked, samples.source)
-    begun = _begin(near, samples)
-    ended, behind = _repair_all(setting, begun, near, progress)
-    tried = compared([*ended.values()], partial(_with_shot_error, setting))
-    # Those that were given up count as bent as badly as the worst.
-    energies = [c.deformation_energy for c in tried if c.deformation_energy is not None]
-    energy, (strain, shot_error) = max(energies, default=None), reference_values(tried, max)
-    given_up = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in behind.values()]
-    reference, every = reference_values(tried, min), [*tried, *given_up]
-    order = in_order([normalize_errors(c, reference) for c in every])
-    which = dict(zip((id(c.functional_map) for c in every), (*ended, *behind), strict=True))
-    nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 3)[1:]  # two others that may turn out better
-    retries = (*nexts, SwappedRepair(setting, *begun[which[id(order[0].functional_map)]], reference))
-    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), retries
+    repairs = _plan_repairs(setting, near)
+    finished, given_up = _run_repairs(repairs, progress)
+    repaired = with_shot_errors([*finished.values()], setting.with_shot_error)
+    # Those that were given up count as the worst in all that was not computed for them.
+    energies = [c.deformation_energy for c in repaired if c.deformation_energy is not None]
+    energy, (strain, shot_error) = max(energies, default=None), reference_values(repaired, max)
+    lagging = [replace(c, deformation_energy=energy, strain=strain, shot_error=shot_error) for c in given_up.values()]
+    both, reference = [*repaired, *lagging], reference_values(repaired, min)
+    order = by_preference([normalize_errors(c, reference) for c in both])
+    number = dict(zip((id(c.functional_map) for c in both), (*finished, *given_up), strict=True))
+    others = distinct_maps(order, samples.source, SCORE.twin_distance, N_RETRIES + 1)[1:]
+    opposite = SwappedRepair(repairs[number[id(order[0].functional_map)]], reference)
+    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), (*others, opposite)
 
 
-def _repair_all(
-    setting: RepairSetting,
-    begun: list[tuple[Candidate, ExtremityVertices | None]],
-    near: list[Candidate],
-    progress: Progress | None,
-) -> tuple[dict[int, Candidate], dict[int, Candidate]]:
-    """Return the repaired candidates and those that are given up, by the number of what they began with.
+def repairable(ranked: list[Candidate], source: ShapeSamples) -> tuple[list[Candidate], list[Candidate]]:
+    """Return the candidates that are worth a repair, the first few and the first few that differ, and the others."""
+    chosen = [*ranked[:N_REPAIRED], *distinct_maps(ranked, source, SCORE.distinct_distance, N_REGISTERED)]
+    least = ranked[0].score - SCORE.repairable_margin
+    is_worth = [any(c is one for one in chosen) and c.score > least for c in ranked]
+    near = [c for c, yes in zip(ranked, is_worth, strict=True) if yes]
+    return near, [c for c, yes in zip(ranked, is_worth, strict=True) if not yes]
 
-    After the first round the better of what that has made and of what was a candidate before, one of ``near``, tells
-    whether a second is worth it.
+
+def _plan_repairs(setting: RepairSetting, near: list[Candidate]) -> list[Repair]:
+    """Return the repairs of candidates, and of maps by likely extremity matches that none of the candidates has."""
+    samples = setting.samples
+    shapes = samples.source, samples.target
+    likely = match_extremities(*shapes, samples.descriptor_cost)
+    own = [match_of_map(c.points, *shapes) for c in near]
+    own = [match and complete_match(match, likely) for match in own]
+    repairs = [
+        Repair(setting, c, match and vertices_of_match(match, *shapes)) for c, match in zip(near, own, strict=True)
+    ]
+    for match in unused_matches(likely, [match for match in own if match], N_MATCHES):
+        C = paired_map(match, samples, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
+        start = score_maps([Start(f"{match}", C)], samples)[0]
+        repairs.append(Repair(setting, start, vertices_of_match(match, *shapes), is_candidate=False))
+    return repairs
+
+
+def _run_repairs(repairs: list[Repair], progress: Progress | None) -> tuple[dict[int, Candidate], dict[int, Candidate]]:
+    """Return the repaired candidates and those that are given up, each by the number of its repair.
+
+    A repair is given up after its first round where the better of its result and of the candidate before lags behind
+    the best of all.
     """
-    rounds = [_repair_rounds(setting, *one) for one in begun]
-    done = np.zeros(len(begun))
+    rounds = [repair.rounds() for repair in repairs]
+    done = np.zeros(len(repairs))
 
     def report(i: int, part: float) -> None:
         done[i] = part
         if progress is not None:
             progress("bent and matched in turn", float(done.mean()))
 
-    def begin_one(i: int) -> Candidate | None:
+    def begin(i: int) -> Candidate | None:
         made = next(rounds[i])
         report(i, 0.5)
         return made
 
-    def end_one(i: int) -> Candidate | None:
-        made = _best_repair(setting, *begun[i], [first[i], *rounds[i]][-1], i < len(near))
+    def end(i: int) -> Candidate | None:
+        made = repairs[i].finish(first[i], rounds[i])
         report(i, 1.0)
-        alone = first[i]  # where the second round falls apart, and the repair began with no candidate
-        return made if made or alone is None else score_registered(alone, setting.proxies)
+        return made
 
     report(0, 0.0)
-    first = parallel(begin_one, range(len(begun)))
-    states = {i: [c for c in (*near[i : i + 1], made) if c is not None] for i, made in enumerate(first)}
-    better = {i: max(some, key=_quality) for i, some in states.items() if some}
+    first = parallel(begin, range(len(repairs)))
+    better = {}
+    for i, (repair, made) in enumerate(zip(repairs, first, strict=True)):
+        states = [c for c in (repair.start if repair.is_candidate else None, made) if c is not None]
+        if states:
+            better[i] = max(states, key=_quality)
     least = max(map(_quality, better.values())) - SCORE.repair_lag
-    going = [i for i, c in better.items() if _quality(c) >= least]
-    behind = {i: c for i, c in better.items() if i not in going}
+    kept = [i for i, c in better.items() if _quality(c) >= least]
+    given_up = {i: c for i, c in better.items() if i not in kept}
     done[:] = 1.0
-    done[going] = 0.5
-    ended = zip(going, parallel(end_one, going), strict=True)
-    return {i: c for i, c in ended if c is not None}, behind
+    done[kept] = 0.5
+    finished = zip(kept, parallel(end, kept), strict=True)
+    return {i: c for i, c in finished if c is not None}, given_up
 
 
-def _quality(one: Candidate) -> float:
-    return one.quality.score
-
-
-def _repair_rounds(
-    setting: RepairSetting, old: Candidate, extremities: ExtremityVertices | None, swapped: bool = True
-) -> Iterator[Candidate | None]:
-    """Register and refine a candidate in turn; yields what each round makes, ``None`` as the last where it fails.
-
-    ``swapped``: whether the target is registered onto the source.
-    """
-    source, target = setting.proxies.source, setting.proxies.target
-    limbs = extremities and extremities.guide(source.mesh, target.mesh, setting.graphs)
-    guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
-    for found in register_map_on_proxies(old.functional_map, setting.proxies, guidance, setting.landmarks, swapped):
-        if found is None:
-            yield None
-            return
-        start = Start(old.name, found.functional_map[:FINE, :FINE], old.uses_descriptors, fit=old.fit)
-        new = score_maps([start], setting.samples)[0]
-        yield replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
+def _quality(candidate: Candidate) -> float:
+    return candidate.quality.score
 
 
 def register_map_on_proxies(
@@ -185,7 +247,7 @@ def register_map_on_proxies(
     landmarks: np.ndarray,
     swapped: bool = True,
 ) -> Iterator[AlternatingResult | None]:
-    """Yield the rounds of :func:`alternating_registration` of a map, ``None`` as the last where a proxy falls apart.
+    """Yield the rounds of :func:`alternating_registration` of a map, ``None`` as the last where it fails.
 
     ``C (k_t, k_s)``; ``guidance``: on all vertices; ``landmarks (l, 2)``; ``swapped``: whether the target is
     registered to the source: the vertices of the result are then the target's.
@@ -194,66 +256,19 @@ def register_map_on_proxies(
         C, pair, landmarks = C.T, pair.swapped(), landmarks[:, ::-1]
         guidance = guidance and guidance.swapped()
     try:
-        for found in alternating_registration(C, pair, guidance, landmarks):
-            yield replace(found, functional_map=found.functional_map.T) if swapped else found
+        for result in alternating_registration(C, pair, guidance, landmarks):
+            yield replace(result, functional_map=result.functional_map.T) if swapped else result
     except NotConverged:
         yield None
 
 
-def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
-    """Return what repairs begin with: candidates, and maps of likely extremity matches that none of them has."""
-    likely = match_extremities(samples.source, samples.target, samples.descriptor_cost)
-    found = [match_of_map(one.points, samples.source, samples.target) for one in near]
-    known = [one and complete_match(one, likely) for one in found]
-    begun = [
-        (c, one and vertices_of_match(one, samples.source, samples.target)) for c, one in zip(near, known, strict=True)
-    ]
-    for one in unused_matches(likely, [match for match in known if match], PAIRED):
-        C = paired_map(one, samples, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
-        candidate = score_maps([Start(f"{one}", C)], samples)[0]
-        begun.append((candidate, vertices_of_match(one, samples.source, samples.target)))
-    return begun
-
-
-def _best_repair(
-    setting: RepairSetting, old: Candidate, extremities: ExtremityVertices | None, new: Candidate | None, begun: bool
-) -> Candidate | None:
-    """Return the repaired candidate ``new``, or the best of both directions and ``old`` where that made it worse.
-
-    Where a body touches itself the right map may go astray one way only. ``begun``: it was a candidate before.
-    """
-    if new is None:
-        return old if begun else None
-    states: list[Candidate | None] = [new]
-    if begun and _quality(new) < _quality(old):
-        *_, other = _repair_rounds(setting, old, extremities, swapped=False)
-        states += [old, other]
-    made = [c for c in states if c is not None]
-    least = max(map(_quality, made)) - SCORE.repair_lag
-    scored = [score_registered(c, setting.proxies) for c in made if _quality(c) >= least]
-    return max(scored, key=lambda c: c.score)
-
-
-def _with_shot_error(setting: RepairSetting, one: Candidate) -> Candidate:
-    return replace(one, shot_error=registered_shot_error(one.functional_map, setting.proxies))
-
-
-def compared(found: list[Candidate], with_shot_error: Callable[[Candidate], Candidate]) -> list[Candidate]:
+def with_shot_errors(found: list[Candidate], with_shot_error: Callable[[Candidate], Candidate]) -> list[Candidate]:
     """Return the repaired candidates with their SHOT errors; those far behind have the worst that is computed."""
     found = [replace(c, shot_error=None) for c in found]
     reference = reference_values(found, min)
     scores = [normalize_errors(c, reference).score for c in found]
-    near = [score > max(scores) - SCORE.hopeless_margin for score in scores]
-    seen = parallel(with_shot_error, [c for c, yes in zip(found, near, strict=True) if yes])
-    worst = max((c.shot_error for c in seen if c.shot_error is not None), default=None)
-    rest = iter(seen)
-    return [next(rest) if yes else replace(c, shot_error=worst) for c, yes in zip(found, near, strict=True)]
-
-
-def repairable(ranked: list[Candidate], source: ShapeSamples) -> tuple[list[Candidate], list[Candidate]]:
-    """Return the candidates that are worth a repair, the first few and the first few that differ, and the others."""
-    wanted = [*ranked[:FIRST], *distinct_maps(ranked, source, SCORE.distinct_distance, BENT)]
-    least = ranked[0].score - SCORE.repairable_margin
-    worth = [any(c is w for w in wanted) and c.score > least for c in ranked]
-    near = [c for c, yes in zip(ranked, worth, strict=True) if yes]
-    return near, [c for c, yes in zip(ranked, worth, strict=True) if not yes]
+    is_near = [score > max(scores) - SCORE.hopeless_margin for score in scores]
+    computed = parallel(with_shot_error, [c for c, yes in zip(found, is_near, strict=True) if yes])
+    worst = max((c.shot_error for c in computed if c.shot_error is not None), default=None)
+    rest = iter(computed)
+    return [next(rest) if yes else replace(c, shot_error=worst) for c, yes in zip(found, is_near, strict=True)]

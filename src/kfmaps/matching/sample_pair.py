@@ -15,7 +15,7 @@ from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
 from kfmaps.shape import Shape
 
 COARSE_SAMPLES = 400
-"""Samples of the rough refinement; the first of all."""
+"""Samples of the coarse refinement: the first of those of the fine one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +28,11 @@ class SamplePair:
     landmark_cost: np.ndarray | None = None  # (q_t, q_s): the same of the functions around landmarks
     landmark_evidence: LandmarkEvidence | None = None
     solvers: dict[int, np.ndarray] = field(default_factory=dict)  # what :meth:`solver` has made, to be found again
+
+    @property
+    def are_surfaces(self) -> bool:
+        """Whether both shapes are surfaces, which have an orientation, and no point clouds."""
+        return self.source.orientation is not None and self.target.orientation is not None
 
     def solver(self, k: int) -> np.ndarray:
         """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""
@@ -64,54 +69,57 @@ class SamplePair:
 
 @dataclass(frozen=True, eq=False)
 class TwoLevelSamples:
-    """Samples of a pair at two sizes."""
+    """Samples of two shapes at two levels."""
 
-    few: SamplePair  # for many rough maps
-    whole: SamplePair  # for the best of them
+    coarse: SamplePair  # for many rough maps
+    fine: SamplePair  # for the best of them
 
 
 def two_level_samples(
     source: Shape, target: Shape, probes: tuple[ShapeSamples, ShapeSamples], landmarks: np.ndarray | None = None
 ) -> TwoLevelSamples:
-    """Return the samples of two prepared shapes at two sizes.
+    """Return the samples of two prepared shapes at two levels.
 
-    ``probes``: those of the second size, which know of the landmarks; ``landmarks (l, 2)``: pairs "source vertex,
-    target vertex".
+    ``probes``: the fine samples of both shapes, with the distances from their landmarks; ``landmarks (l, 2)``: pairs
+    "source vertex, target vertex".
     """
-    found = None
+    evidence = None
     if landmarks is not None and len(landmarks):
-        sides = list(zip((source, target), probes, landmarks.T, strict=True))
-        functions = [heat_features(p.samples.basis, shape.basis, at) for shape, p, at in sides]
-        found = LandmarkEvidence(
-            target.basis.functions[landmarks[:, 1]], probes[0].landmark_distances, functions[0], functions[1]
-        )
-    few = subsample(probes[0], COARSE_SAMPLES), subsample(probes[1], COARSE_SAMPLES)
-    less = found and found.subsample(*(len(p.samples.vertices) for p in few))
-    return TwoLevelSamples(build_sample_pair(*few, less), build_sample_pair(*probes, found))
+        sides = zip((source, target), probes, landmarks.T, strict=True)
+        heat = [heat_features(p.samples.basis, shape.basis, at) for shape, p, at in sides]
+        evidence = LandmarkEvidence(target.basis.functions[landmarks[:, 1]], probes[0].landmark_distances, *heat)
+    coarse = subsample(probes[0], COARSE_SAMPLES), subsample(probes[1], COARSE_SAMPLES)
+    subsampled = evidence and evidence.subsample(*(len(p.samples.vertices) for p in coarse))
+    return TwoLevelSamples(build_sample_pair(*coarse, subsampled), build_sample_pair(*probes, evidence))
 
 
-def build_sample_pair(source: ShapeSamples, target: ShapeSamples, marks: LandmarkEvidence | None = None) -> SamplePair:
-    """Return the samples of two shapes with their costs, and those of landmarks where there are some."""
-    found = descriptor_guidance(source.descriptors, target.descriptors)
-    around = None if marks is None else descriptor_cost(heat_guidance(marks.functions_s, marks.functions_t))
-    return SamplePair(source, target, None if found is None else descriptor_cost(found), around, marks)
+def build_sample_pair(
+    source: ShapeSamples, target: ShapeSamples, evidence: LandmarkEvidence | None = None
+) -> SamplePair:
+    """Return the samples of two shapes with their costs, and with those of landmarks where there are any."""
+    shot = descriptor_guidance(source.descriptors, target.descriptors)
+    landmarks = evidence and heat_guidance(evidence.functions_s, evidence.functions_t)
+    return SamplePair(
+        source, target, shot and descriptor_cost(shot), landmarks and descriptor_cost(landmarks), evidence
+    )
 
 
-def drop_landmarks(on: TwoLevelSamples, wrong: np.ndarray) -> TwoLevelSamples:
-    """Return the samples without the ``wrong (l,)`` landmarks."""
+def drop_landmarks(samples: TwoLevelSamples, rejected: np.ndarray) -> TwoLevelSamples:
+    """Return the samples without the landmarks that are ``rejected (l,)`` bool."""
 
-    def less(pair: SamplePair) -> SamplePair:
-        kept = pair.landmark_evidence if pair.landmark_evidence and not wrong.all() else None
-        return build_sample_pair(pair.source, pair.target, kept and kept.without(wrong))
+    def without(pair: SamplePair) -> SamplePair:
+        evidence = pair.landmark_evidence if pair.landmark_evidence and not rejected.all() else None
+        return build_sample_pair(pair.source, pair.target, evidence and evidence.without(rejected))
 
-    return TwoLevelSamples(less(on.few), less(on.whole))
+    return TwoLevelSamples(without(samples.coarse), without(samples.fine))
 
 
-def mirrored_pair(on: SamplePair) -> SamplePair:
+def mirrored_pair(pair: SamplePair) -> SamplePair:
     """Return the pair with the target's mirror image."""
-    return build_sample_pair(on.source, mirror_samples(on.target), on.landmark_evidence)
+    return build_sample_pair(pair.source, mirror_samples(pair.target), pair.landmark_evidence)
 
 
-def descriptor_cost(found: DescriptorGuidance) -> np.ndarray:
-    """Return half the squared differences ``(q_t, q_s)`` float32 of guidance, up to a constant a target point."""
-    return (0.5 * (found.source**2).sum(axis=1)[None, :] - found.target @ found.source.T).astype(np.float32)
+def descriptor_cost(guidance: DescriptorGuidance) -> np.ndarray:
+    """Return half the squared differences ``(q_t, q_s)`` float32 of guidance, up to a constant of each target point."""
+    source, target = guidance.source, guidance.target
+    return (0.5 * (source**2).sum(axis=1)[None, :] - target @ source.T).astype(np.float32)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 from scipy.special import expit
@@ -275,6 +275,12 @@ class Candidate:
         return candidate_score(self)
 
     @property
+    def excess_deformation(self) -> float:
+        """:func:`excess_deformation` of the map; 0 where its deformation energy was not computed."""
+        energy = self.deformation_energy
+        return 0.0 if energy is None else excess_deformation(self.quality.score, energy)
+
+    @property
     def unregistered(self) -> Candidate:
         """The same without evidence of a registration."""
         return replace(self, deformation_energy=None, strain=None, shot_error=None)
@@ -377,10 +383,19 @@ def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarra
     return share**2 * float(expit((numbers.landmark_error_middle - error) / numbers.landmark_error_width))
 
 
+def deforms_too_much(candidate: Candidate) -> bool:
+    """Return whether a map deforms the shapes much more than right maps of its score do, so that it may be wrong."""
+    return candidate.excess_deformation > SCORE.excess_deformation
+
+
+def is_near_isometric(score: float) -> bool:
+    """Return whether a :attr:`Quality.score` is that of near-isometric shapes, whose high functions correspond."""
+    return score >= SCORE.non_isometric_score
+
+
 def max_landmark_error(score: float) -> float:
     """Return the error from which a landmark contradicts a map of this :attr:`Quality.score`, in √area."""
-    near_isometric = score >= SCORE.non_isometric_score
-    return SCORE.max_isometric_landmark_error if near_isometric else SCORE.max_landmark_error
+    return SCORE.max_isometric_landmark_error if is_near_isometric(score) else SCORE.max_landmark_error
 
 
 def rejected_landmarks(errors: np.ndarray, limit: float) -> np.ndarray:
@@ -446,6 +461,21 @@ def lower_by_torn_area(chance: float | None, word: str, torn_area: float) -> tup
         return chance, word
     chance *= 1.0 - torn_area
     return chance, word if word == "ambiguous" else probability_word(chance)
+
+
+class Scored(Protocol):
+    """Whatever has a score."""
+
+    @property
+    def score(self) -> float: ...
+
+
+S = TypeVar("S", bound=Scored)
+
+
+def by_score(found: Iterable[S]) -> list[S]:
+    """Return candidates or placements, best first."""
+    return sorted(found, key=lambda one: one.score, reverse=True)
 
 
 def select_distinct(order: Iterable[T], differ: Callable[[T, T], bool], most: int | None = None) -> list[T]:

@@ -1,0 +1,106 @@
+"""Landmarks that the best map contradicts: which to reject, and how far the others support the map.
+
+A landmark may be wrong. So a search makes candidates with the landmarks and without them. A landmark is rejected where
+the best map keeps to most of the others, or where a map that was found without landmarks is clearly better.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import to_numpy
+from kfmaps.config import Config
+from kfmaps.matching.candidates import candidates, map_distance, rerefine, score_maps
+from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
+from kfmaps.matching.ranking import ranking
+from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
+from kfmaps.matching.score import (
+    SCORE,
+    Candidate,
+    landmark_support,
+    max_landmark_error,
+    rejected_landmarks,
+    verdict,
+)
+from kfmaps.matching.search_state import SearchState
+from kfmaps.shape import Shape
+
+
+def candidates_without_landmarks(
+    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, rng: int, **options: Any
+) -> list[Candidate]:
+    """Return candidates that landmarks took no part in, scored with them: landmarks only add candidates to a search."""
+    bare = TwoLevelSamples(
+        *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.coarse, samples.fine))
+    )
+    return score_maps(candidates(source, target, config, bare, rng, **options), samples.fine)
+
+
+def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[Candidate, float], ...]]:
+    """Return the landmarks (l,) bool to reject, and a map that casts a doubt on the others with the margin over it.
+
+    The best map contradicts some while it keeps to most of the others. A map that was found without landmarks and would
+    be called "sure" contradicts any number, unless a map that keeps to them fits the surfaces nearly as well: then none
+    is rejected for it, and neither map is sure.
+    """
+    best, samples = state.ranked[0], state.samples.fine
+    errors = ignore_landmarks(best, samples).landmark_errors
+    limit = max_landmark_error(best.quality.score)
+    rejected = rejected_landmarks(errors, limit)
+    least = without_landmark_errors(best.unregistered).score - SCORE.repairable_margin
+    near = [c for c in state.candidates if without_landmark_errors(c.unregistered).score > least]
+    has_alternative = any(map_distance(c, best, samples.source) > SCORE.distinct_distance for c in near)
+    if not has_alternative and not (errors > limit).any():
+        return rejected, ()
+    order = rank_by_surface(state)
+    free, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
+    if verdict(free.quality.score, margin, free.deformation_energy) != "sure":
+        return rejected, ()
+    contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.score)
+    if 2 * contradicted.sum() > len(contradicted):
+        # Where left and right were exchanged, landmarks near the middle would mislead too.
+        contradicted = np.ones(len(contradicted), dtype=bool)
+    gain = without_landmark_errors(free).score - without_landmark_errors(best).score
+    if gain > SCORE.close_margin or not (contradicted & (errors <= limit)).any():
+        return contradicted, ()
+    return rejected, ((free, -gain),)
+
+
+def rank_by_surface(state: SearchState) -> list[Candidate]:
+    """Return the distinct candidates that were found without landmarks, ranked without them, best first."""
+    found = state.candidates if state.orientation == "reversing" else state.without_landmarks
+    found = [replace(c, landmark_errors=np.zeros(0)) for c in found or state.candidates]
+    return ranking(found, state.samples.fine, state.proxies)
+
+
+def without_landmark_errors(candidate: Candidate) -> Candidate:
+    """Return a candidate without landmark errors, and without evidence that is relative to other candidates."""
+    return replace(candidate, landmark_errors=np.zeros(0), strain=None, shot_error=None)
+
+
+def ignore_landmarks(candidate: Candidate, samples: SamplePair) -> Candidate:
+    """Return the candidate refined without landmarks, so that its landmark errors test both map and landmarks."""
+    return rerefine([candidate], replace(samples, landmark_cost=None))[0]
+
+
+def support_of_landmarks(best: Candidate, samples: SamplePair) -> float:
+    """Return :func:`kfmaps.matching.score.landmark_support` of a map by the landmarks; 0 without any."""
+    if samples.landmark_evidence is None:
+        return 0.0
+    errors = ignore_landmarks(best, samples).landmark_errors
+    return landmark_support(errors, samples.landmark_evidence.distances, to_numpy(samples.source.samples.basis.mass))
+
+
+def still_contradicted(best: Candidate, samples: SamplePair, evidence: LandmarkEvidence | None) -> np.ndarray:
+    """Return which of all given landmarks the final candidate contradicts, (l,) bool.
+
+    A landmark that a rough map of unlike shapes contradicts, on a tail say, may be right by the registered map, which
+    was made without it.
+    """
+    if evidence is None:
+        return np.zeros(0, dtype=bool)
+    errors = landmark_errors(best.functional_map, samples.source.samples.basis.functions, evidence)
+    return errors > max_landmark_error(best.quality.score)

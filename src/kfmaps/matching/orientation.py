@@ -1,0 +1,83 @@
+"""Maps to the mirror image of the target, and whether one of them is the answer.
+
+A map to the mirror image is right where the shapes are a left and a right bone, or where one was mirrored by mistake.
+The shapes usually preserve orientation, so such a map must be much better unless the settings ask for either.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kfmaps.matching.candidates import by_score, compose_with_symmetries, rerefine, score_maps
+from kfmaps.matching.landmark_conflicts import rank_by_surface, without_landmark_errors
+from kfmaps.matching.ranking import ProxyCache, ranking
+from kfmaps.matching.sample_pair import SamplePair, mirrored_pair
+from kfmaps.matching.score import SCORE, Candidate
+from kfmaps.matching.search_state import SearchState
+
+_N_REFINED = 3
+"""Maps to the mirror image that are refined again with its descriptors."""
+
+
+def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchState:
+    """Compare the best map with maps to the mirror image where the settings ask for it, or where one may be better.
+
+    With the setting "auto", maps to the mirror image are registered only where the best map ``deforms_too_much`` or
+    where one of them has a better score before registration. One that is clearly better replaces the best map, and so
+    does one that is better and hardly deforms the shape. Any other that is better becomes a doubt.
+    """
+    config, samples = state.config, state.samples
+    assert config.search is not None
+    is_auto = config.search.orientation == "auto"
+    if not samples.fine.are_surfaces or not (is_auto or config.search.orientation == "either"):
+        return state
+    mirrored = mirrored_pair(samples.fine)
+    images = mirror_candidates(state.candidates, mirrored)
+    score = state.ranked[0].unregistered.score
+    if not images or (is_auto and not deforms_too_much and images[0].score < score + SCORE.mirror_gain):
+        return state
+    proxies = ProxyCache.of(state.source, state.target, mirrored)
+    # Registration with more points raises no score by more than the margin.
+    ranked = ranking(images, mirrored, proxies, state.ranked[0].score - SCORE.close_margin)
+    image, energy = ranked[0], ranked[0].deformation_energy
+    gain = _gain(image, state, is_auto)
+    if is_auto and gain > SCORE.mirror_gain:
+        # A body that is nearly its own mirror image has a map that preserves orientation and is as good.
+        composed = compose_with_symmetries(image, samples)
+        if composed:
+            found = [*state.candidates, *composed]
+            free = [*state.without_landmarks, *composed] if state.without_landmarks else []
+            preserving = ranking(found, samples.fine, state.proxies)
+            state = replace(state, candidates=found, without_landmarks=free, ranked=preserving)
+            gain = _gain(image, state, is_auto)
+    is_congruent = energy is not None and energy < SCORE.congruent_energy
+    margin = SCORE.mirror_gain if is_congruent else SCORE.mirror_margin
+    if gain > (margin if is_auto else SCORE.clear_margin):
+        samples = replace(samples, fine=mirrored)
+        return replace(
+            state, samples=samples, proxies=proxies, candidates=images, ranked=ranked, orientation="reversing"
+        )
+    return replace(state, doubts=((image, -gain),)) if is_auto and gain > SCORE.mirror_gain else state
+
+
+def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:
+    """Return by how much the score of a map to the mirror image exceeds that of the best map.
+
+    With landmarks and the setting "auto" it must exceed it without them too: landmarks with left and right exchanged
+    agree with the mirror image of any body that is nearly its own mirror image.
+    """
+    gain = image.score - state.ranked[0].score
+    if not is_auto or not len(state.landmarks):
+        return gain
+    best = rank_by_surface(state)[0]
+    return min(gain, without_landmark_errors(image).score - without_landmark_errors(best).score)
+
+
+def mirror_candidates(found: list[Candidate], mirrored: SamplePair) -> list[Candidate]:
+    """Return candidates as maps to the mirror image, best first; the best few are refined with its descriptors.
+
+    The candidates include maps that were refined without descriptors: only these find an isometry that reverses
+    orientation.
+    """
+    images = by_score(score_maps([replace(c, uses_descriptors=True) for c in found], mirrored))
+    return by_score(rerefine(images[:_N_REFINED], mirrored) + images[_N_REFINED:])
