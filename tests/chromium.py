@@ -8,6 +8,7 @@ import shutil
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -47,6 +48,13 @@ class Browser:
         self.driver.get(address)
         self.until(lambda: self.run("return window.kfmaps?.firstPicture != null"))
 
+    def show(self, html: str, folder: Path) -> str:
+        """Open a page from the disk, and return its address."""
+        page = folder / "page.html"
+        page.write_text(html, encoding="utf-8")
+        self.open(page.as_uri())
+        return page.as_uri()
+
     def leave(self) -> None:
         """Go away from the page, whatever it asks."""
         self.driver.execute_cdp_cmd("Page.navigate", {"url": "about:blank"})
@@ -85,7 +93,7 @@ class Browser:
     def requests(self) -> list[str]:
         events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         urls = [e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"]
-        return [url for url in urls if not url.startswith(("data:", "blob:"))]
+        return [url for url in urls if not url.startswith(("data:", "blob:", "chrome:"))]
 
     def place(self, side: str, vertex: int) -> tuple[int, int]:
         at = self.run("return kfmaps.project(arguments[0], arguments[1])", side, int(vertex))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +17,7 @@ from kfmaps.batch.transfer_landmarks import read_templates, template_landmarks
 from kfmaps.io import write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, write_landmark_sets
 from kfmaps.viz.landmark_review import ReviewServer
+from serving import answering
 
 N = 300
 AT = np.array([10, 100, 150, 220, 290])
@@ -53,12 +53,8 @@ def study(tmp_path: Path) -> Path:
 def serving(study: Path) -> Iterator[ReviewServer]:
     """The review page of a study, answering from another thread."""
     made = ReviewServer(study)
-    thread = threading.Thread(target=made.serve_forever)
-    thread.start()
-    yield made
-    made.shutdown()
-    thread.join()
-    made.close()
+    with answering(made):
+        yield made
 
 
 def rows_of(study: Path, specimen: str) -> dict[str, dict[str, str]]:

@@ -1,14 +1,58 @@
-"""A client of the local servers, which sends what it is told to send."""
+"""A local server that answers, a client that sends what it is told to send, and what stands in a page."""
 
 from __future__ import annotations
 
 import http.client
 import json
 import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from html.parser import HTMLParser
+from threading import Thread
 from typing import Any
 
 from kfmaps.viz.server import _LOOPBACK, LocalServer
+
+
+@contextmanager
+def answering(server: LocalServer) -> Iterator[Client]:
+    """A client of a server, which answers from another thread."""
+    with closing(server):
+        thread = Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield Client(server)
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+class Page(HTMLParser):
+    """Elements of a page with their attributes, and the texts in the elements of each name."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.text: dict[str, list[str]] = {}
+        self._inside = ""
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self._inside = tag
+        self.text.setdefault(tag, []).append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._inside = self._inside if self._inside != tag else ""
+
+    def handle_data(self, data: str) -> None:
+        self.text.setdefault(self._inside, [""])[-1] += data
+
+
+def page_data(html: str) -> Any:
+    """What a page shows, as it is written into it."""
+    return json.loads(Page(html).text["script"][0])
 
 
 @dataclass

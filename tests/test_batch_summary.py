@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import warnings
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +24,7 @@ from kfmaps.batch.results import (
     write_result,
 )
 from kfmaps.batch.run import run_batch
+from serving import Page
 
 
 @pytest.fixture(scope="module")
@@ -54,37 +54,21 @@ def test_tables_have_a_row_a_pair(tmp_path: Path) -> None:
     assert rows[2]["notes"] == "one; two"
 
 
-class Elements(HTMLParser):
-    """The tags and addresses of a page, and its text."""
-
-    def __init__(self, page: str) -> None:
-        super().__init__()
-        self.tags: list[str] = []
-        self.addresses: list[str] = []
-        self.text: list[str] = []
-        self.feed(page)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append(tag)
-        self.addresses += [v or "" for k, v in attrs if k in ("src", "href", "srcset", "action", "data")]
-        assert not any(k.startswith("on") for k, _ in attrs)
-
-    def handle_data(self, data: str) -> None:
-        self.text.append(data)
-
-
 def test_the_summary_escapes_and_needs_no_network() -> None:
     page = summary_page(
         "<b>name</b>", some_results(), {"seed": "</pre><script>"}, {"<i>a</i>": "data:image/png;base64,cG5n"}, 5
     )
-    found = Elements(page)
-    assert not {"b", "i", "iframe", "link", "object"} & set(found.tags)
-    assert found.tags.count("script") == 1  # its own, which sorts
+    found = Page(page)
+    tags, named = [tag for tag, _ in found.tags], [pair for _, own in found.tags for pair in own.items()]
+    assert not any(name.startswith("on") for name, _ in named)
+    assert not {"b", "i", "iframe", "link", "object"} & set(tags)
+    assert tags.count("script") == 1  # its own, which sorts
     assert "script-src &#39;sha256-" in page
-    assert found.tags.count("img") == 2  # the curve and the picture, not those of names
-    assert all(address.startswith(("data:image/", "#")) for address in found.addresses)
+    assert tags.count("img") == 2  # the curve and the picture, not those of names
+    addresses = [value or "" for name, value in named if name in ("src", "href", "srcset", "action", "data")]
+    assert all(address.startswith(("data:image/", "#")) for address in addresses)
     assert "default-src &#39;none&#39;" in page
-    text = " ".join(found.text)
+    text = " ".join(part for parts in found.text.values() for part in parts)
     for told in ("<b>name</b>", "<script>alert(2)</script>", "2 not done yet", "</pre><script>", "11.00", "1 failed"):
         assert told in text
 

@@ -50,8 +50,7 @@ def page(browser: Browser, poses: ExamplePair, tmp_path: Path, monkeypatch: pyte
     )
     truth = Truth(poses.truth, np.arange(n_t))
     html = match_page(found, poses.source, poses.target, (NASTY, "b"), truth=truth)
-    (tmp_path / "page.html").write_text(html, encoding="utf-8")
-    browser.open((tmp_path / "page.html").as_uri())
+    browser.show(html, tmp_path)
     return browser
 
 
@@ -98,9 +97,7 @@ def test_colours_and_texture_are_carried_by_the_map(browser: Browser, poses: Exa
     views = {}
     identity = np.arange(len(poses.source.vertices))
     for name, points in (("same", identity), ("other", identity[::-1].copy())):
-        page = tmp_path / f"{name}.html"
-        page.write_text(match_page(Match(points), poses.source, poses.source, descriptors=False), encoding="utf-8")
-        browser.open(page.as_uri())
+        browser.show(match_page(Match(points), poses.source, poses.source, descriptors=False), tmp_path)
         if browser.element("#aligned").is_selected():
             browser.element("#aligned").click()  # both lie alike, so the pictures differ by the map alone
         for mode in ("colours", "texture"):
@@ -240,8 +237,7 @@ def test_difference_is_to_the_runner_up(page: Browser, poses: ExamplePair, tmp_p
     upper = poses.target.vertices[:, 1] > np.median(poses.target.vertices[:, 1])
     half[upper] = half[upper][::-1]
     html = match_page(Match(poses.truth, alternatives=(half,)), poses.source, poses.target, descriptors=False)
-    (tmp_path / "half.html").write_text(html, encoding="utf-8")
-    page.open((tmp_path / "half.html").as_uri())
+    page.show(html, tmp_path)
     page.mode("difference")
     page.painted()
     assert "√area" in page.text("legend-text")
@@ -262,8 +258,7 @@ def test_confidence_is_of_the_map_that_is_shown(browser: Browser, poses: Example
     wrong[part] = np.random.default_rng(0).permutation(wrong[part])
     found = Match(wrong, alternatives=(poses.truth,))
     html = match_page(found, poses.source, poses.target, ("a", "b"), descriptors=False)
-    (tmp_path / "sure.html").write_text(html, encoding="utf-8")
-    browser.open((tmp_path / "sure.html").as_uri())
+    browser.show(html, tmp_path)
     browser.mode("confidence")
     assert (browser.text("legend-low"), browser.text("legend-high")) == ("0 %", "100 %")
     assert "local fit" in browser.text("legend-text")
@@ -323,10 +318,8 @@ def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, poses: E
     turned = poses.source.vertices * [-1, 1, -1]
     back_for_front = np.asarray(KDTree(poses.source.vertices).query(turned)[1])
     identity = np.arange(len(turned))
-    for name, target, points in (("lying", lying, identity), ("back", poses.source, back_for_front)):
-        path = tmp_path / f"{name}.html"
-        path.write_text(match_page(Match(points), poses.source, target, descriptors=False), encoding="utf-8")
-        browser.open(path.as_uri())
+    for target, points in ((lying, identity), (poses.source, back_for_front)):
+        browser.show(match_page(Match(points), poses.source, target, descriptors=False), tmp_path)
         views = [
             browser.run("return document.getElementById(arguments[0]).getBoundingClientRect().x", f"view-{side}")
             for side in ("source", "target")
@@ -346,8 +339,7 @@ def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, poses: Ex
     file = MeshFile(source, None, uv, source.faces, encode_png(pixels))
     found = Match(poses.truth, alternatives=(poses.truth[::-1],))
     html = match_page(found, file, poses.target, ("a", "b"), descriptors=False)
-    (tmp_path / "texture.html").write_text(html, encoding="utf-8")
-    browser.open((tmp_path / "texture.html").as_uri())
+    browser.show(html, tmp_path)
     browser.mode("texture")
     browser.until(lambda: browser.text("legend-text") == "The texture of a, carried to b by the map.")
     browser.painted()

@@ -18,6 +18,7 @@ from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_landmark_names, read_landmarks
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.picker import PickerServer
+from serving import answering
 
 pytest_plugins = ["chromium"]
 pytestmark = needs_browser
@@ -50,16 +51,12 @@ def picker(
         matcher=a_matcher,
         map_output=tmp_path / "m.npz",
     )
-    thread = threading.Thread(target=serving.serve_forever)
-    thread.start()
-    opened = tmp_path_factory.mktemp("opened") / "page.html"
-    opened.write_text(forwarding_page(serving.address), encoding="utf-8")
-    browser.open(opened.as_uri())
-    yield browser
-    browser.leave()
-    serving.shutdown()
-    thread.join()
-    serving.close()
+    with answering(serving):
+        opened = tmp_path_factory.mktemp("opened") / "page.html"
+        opened.write_text(forwarding_page(serving.address), encoding="utf-8")
+        browser.open(opened.as_uri())
+        yield browser
+        browser.leave()
 
 
 def cells(picker: Browser) -> list[list[str]]:

@@ -17,9 +17,9 @@ from rich.text import Text
 
 from commandline import SMALL, Ran, run, shapes
 from conftest import blob
-from kfmaps._arrays import InvalidInput, refuse, shown
+from kfmaps._arrays import refuse, shown
 from kfmaps.cli.terminal import Terminal
-from kfmaps.io import Values, atomic_output, check_output, save_map, write_mesh, write_values
+from kfmaps.io import Values, atomic_output, save_map, write_mesh, write_values
 from kfmaps.matching.result import Match
 
 EVIL = "\x1b[31m\x1b]0;title\x07\r\x08\x9b2J\u202egnp\n\x7f"
@@ -178,17 +178,6 @@ def test_other_errors_keep_their_file(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError) as caught, atomic_output(tmp_path / "a.txt"):
         (tmp_path / "other").read_text()
     assert caught.value.filename == str(tmp_path / "other")
-
-
-@pytest.mark.parametrize("place", ["/dev/null", "/dev/stdout", "/dev/stderr", "/dev/fd/1", "/proc/self/fd/1"])
-def test_devices(tmp_path: Path, place: str) -> None:
-    if not Path("/dev/null").exists():
-        pytest.skip("no devices here")
-    (tmp_path / "a.txt").symlink_to(place)
-    for path in (place, tmp_path / "a.txt"):
-        if path is place or place == "/dev/null":
-            with pytest.raises(InvalidInput, match="a device or pipe"):
-                check_output(path, force=True)
 
 
 @pytest.mark.parametrize(

@@ -93,6 +93,8 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
         ("none/a.txt", "existing folder"),
         ("", "a folder"),
         ("/dev/null", "a device"),
+        ("/dev/stdout", "a device"),
+        ("/proc/self/fd/1", "a device"),
         ("a" * 300 + ".txt", "too long"),
         ("a\0.txt", "null"),
     ],

@@ -23,18 +23,13 @@ from kfmaps.io import read_mesh, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
 from kfmaps.viz.landmark_review import ReviewServer
 from reviewing import AT, LABELS, QUICK, N, rows_of
-from serving import Client
+from serving import Client, page_data
 
 pytest_plugins = ["reviewing"]
 
 
 def tables(study: Path) -> dict[str, bytes]:
     return {str(path.relative_to(study)): path.read_bytes() for path in study.rglob("*") if path.is_file()}
-
-
-def page_data(client: Client, page: str = "") -> dict[str, Any]:
-    text = client.get(page).body.decode()
-    return json.loads(text.split('id="data">', 1)[1].split("</script>", 1)[0])
 
 
 def test_a_study_that_is_read_and_written_again_is_the_same(study: Path) -> None:
@@ -48,7 +43,7 @@ def test_a_study_that_is_read_and_written_again_is_the_same(study: Path) -> None
 
 def test_the_page_begins_with_a_flagged_specimen(serving: ReviewServer) -> None:
     client = Client(serving)
-    data = page_data(client)
+    data = page_data(client.get().body.decode())
     assert (data["source"]["name"], data["target"]["name"]) == ("a", "b")
     assert [one["flag"] for one in data["landmarks"]] == ["", "low confidence", "", "", "no counterpart"]
     assert [one["place"] is None for one in data["landmarks"]] == [False, False, False, False, True]
@@ -57,7 +52,7 @@ def test_the_page_begins_with_a_flagged_specimen(serving: ReviewServer) -> None:
         {"page": 1, "name": "b", "flags": 2},
         {"page": 2, "name": "c", "flags": 0},
     ]
-    assert page_data(client, "2")["target"]["name"] == "c"
+    assert page_data(client.get("2").body.decode())["target"]["name"] == "c"
     assert client.get("3").status == 404
 
 

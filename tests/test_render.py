@@ -12,12 +12,11 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from scipy.spatial import KDTree
-from typer.testing import CliRunner
 
 from collecting import done, plan_of, write_collection
+from commandline import run
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.cli.commands.render import app
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map
@@ -206,15 +205,13 @@ def output(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def render(tmp_path: Path) -> Callable[..., Path]:
     """Runs the command and gives the file it wrote."""
 
-    def run(*arguments: object, name: str = "figure.png") -> Path:
-        path = tmp_path / name
-        result = CliRunner().invoke(app, [*map(str, arguments), "-o", str(path)])
-        if result.exception is not None and not isinstance(result.exception, SystemExit):
-            raise result.exception
-        assert result.exit_code == 0, result.output
-        return path
+    def draw(*arguments: object, name: str = "figure.png") -> Path:
+        ran = run("render", *arguments, "-o", tmp_path / name)
+        if ran.status:
+            raise InvalidInput(ran.error)
+        return tmp_path / name
 
-    return run
+    return draw
 
 
 def test_every_kind_of_figure(output: Path, render: Callable[..., Path]) -> None:

@@ -6,7 +6,6 @@ import json
 import shutil
 import subprocess
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
@@ -35,38 +34,11 @@ from kfmaps.viz import result_pages
 from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
 from kfmaps.viz.figures import position_colors
 from kfmaps.viz.result_pages import _match_summary, _rotation_by_map, match_page, signatures, vertex_errors
+from serving import Page, page_data
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)
 NASTY = "</script><script>alert(1)</script>&'\"<!--"
-
-
-class Tags(HTMLParser):
-    """Elements of a page with their attributes, and the text inside scripts, styles and the title."""
-
-    def __init__(self, html: str) -> None:
-        super().__init__()
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.text: dict[str, list[str]] = {}
-        self._in = ""
-        self.feed(html)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append((tag, dict(attrs)))
-        self._in = tag
-        if tag in ("script", "style", "title"):
-            self.text.setdefault(tag, []).append("")
-
-    def handle_endtag(self, tag: str) -> None:
-        self._in = self._in if self._in != tag else ""
-
-    def handle_data(self, data: str) -> None:
-        if self._in in self.text:
-            self.text[self._in][-1] += data
-
-
-def page_data(html: str) -> dict:
-    return json.loads(Tags(html).text["script"][0])
 
 
 def unpacked(record: dict) -> np.ndarray:
@@ -200,7 +172,7 @@ def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
 def test_page_takes_names_and_settings_as_text(pair: tuple) -> None:
     source, target, points = pair
     html = plain_page(source, target, Match(points, fit=MatchFit(kernel=NASTY)), names=(NASTY, "b"))
-    tags = Tags(html)
+    tags = Page(html)
     assert [a.get("type") for t, a in tags.tags if t == "script"] == ["application/json", None]
     assert tags.text["title"] == [f"{NASTY} → b"]
     assert page_data(html)["source"]["name"] == NASTY
@@ -208,7 +180,7 @@ def test_page_takes_names_and_settings_as_text(pair: tuple) -> None:
 
 
 def test_page_allows_its_own_script_and_style_only(pair: tuple) -> None:
-    tags = Tags(plain_page(*pair))
+    tags = Page(plain_page(*pair))
     policy = next(a["content"] for t, a in tags.tags if a.get("http-equiv") == "Content-Security-Policy")
     assert policy is not None
     rules = {name: rest for name, *rest in (rule.split() for rule in policy.split("; "))}
