@@ -54,7 +54,6 @@ SOURCES: dict[str, Any] = {
 
 @pytest.mark.parametrize("kind", SOURCES)
 def test_shapes_of_other_libraries(kind: str) -> None:
-    """Vertices and faces are the object's own, in its order."""
     found = as_mesh(SOURCES[kind])
     np.testing.assert_allclose(found.vertices, V, atol=1e-6)
     np.testing.assert_array_equal(found.faces, F)
@@ -209,7 +208,6 @@ def test_the_inverse_is_finer_where_the_map_is(shuffled: kfmaps.Match, poses: kf
 
 
 def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> None:
-    """From a match, or from the file and the shapes."""
     path = kfmaps.view(shuffled, output=tmp_path / "page.html", descriptors=False, names=("one", "two"))
     assert path is not None
     assert "one → two" in path.read_text(encoding="utf-8")
@@ -284,7 +282,6 @@ def test_each_call_takes_any_kind_of_map(shuffled: kfmaps.Match, tmp_path: Path)
 
 
 def test_zoomout_grows_a_map_to_all_functions(shuffled: kfmaps.Match) -> None:
-    """From a small true map to the true points, as the same refinement does inside a match."""
     a, b = (kfmaps.laplace_basis(mesh, 60) for mesh in (shuffled.source, shuffled.target))
     C = kfmaps.to_functional(ORDER, a.truncate(20), b.truncate(20))
     found = kfmaps.zoomout(C, a, b)

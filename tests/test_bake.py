@@ -56,7 +56,6 @@ def round_picture(size: int = 512) -> np.ndarray:
 
 
 def test_texels_are_where_the_triangle_is() -> None:
-    """Against every texel's centre, one by one; together they have its area."""
     height, width = 96, 64
     corners = np.array([[[0.1, 0.2], [0.8, 0.3], [0.4, 0.9]]])
     face, texel, weights = _find_texels(corners, height, width)
@@ -97,7 +96,6 @@ def colours_of(shape: MeshFile) -> tuple[np.ndarray, np.ndarray]:
     ("mode", "kind"), [("RGBA", "png"), ("P", "png"), ("L", "png"), ("1", "png"), ("CMYK", "jpeg")]
 )
 def test_pictures_of_every_kind_are_read(mode: str, kind: str) -> None:
-    """Of two halves, black and white."""
     file = io.BytesIO()
     halves = np.repeat(np.array([0, 255], dtype=np.uint8), 16)[None, :, None] * np.ones((32, 1, 3), dtype=np.uint8)
     Image.fromarray(halves).convert(mode).save(file, kind)

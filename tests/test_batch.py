@@ -251,7 +251,6 @@ def test_attempts_are_counted_across_kills(folder: Path, tmp_path: Path) -> None
 
 
 def test_mirrored_truth(tmp_path: Path) -> None:
-    """Swapping the direct and the mirrored lists swaps the two errors."""
     means = []
     for swap in (False, True):
         folder = write_collection(tmp_path / f"c{swap}", 2)
@@ -271,7 +270,6 @@ def test_mirrored_truth(tmp_path: Path) -> None:
 
 
 def test_identity_and_pair_truth_agree_with_lists(tmp_path: Path) -> None:
-    """The same correspondence said in three ways gives the same errors."""
     means = []
     for way in ("lists", "map", "identity"):
         folder = tmp_path / way

@@ -251,7 +251,6 @@ def dask_processes(folder: Path, workers: int) -> Iterator[str]:
 
 @LEFT_BEHIND
 def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
-    """Two worker processes that nobody restarts; one is killed in the middle, the other does the rest."""
     plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
     killed: list[tuple[int, str]] = []
 
@@ -368,7 +367,6 @@ SILENT, TALKING = "silent", "talking"
     "address", ["nonsense", "", "tcp://a:0", "tcp://a:99999", "ws://x", "tls://127.0.0.1:9", SILENT, TALKING]
 )
 def test_no_scheduler_but_something_else(address: str) -> None:
-    """Whatever answers at the address, or does not: one line, soon."""
     with socket.create_server(("127.0.0.1", 0)) as server:
 
         def talk() -> None:

@@ -197,7 +197,6 @@ def test_loops_whose_triangles_disagree_are_told(addon: types.ModuleType, pair: 
 
 @pytest.mark.skipif(not BLENDER, reason="Blender as a module (bpy) is not installed")
 def test_the_operators_in_blender(addon: types.ModuleType) -> None:
-    """Two grids of quads, the second bent: both operators, a picture, and quads over the seam cut into triangles."""
     import bpy
 
     addon.register()

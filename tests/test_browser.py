@@ -331,7 +331,6 @@ def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, poses: E
 
 
 def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, poses: ExamplePair, tmp_path: Path) -> None:
-    """A picture that is red on the left and blue on the right, and the pattern again for an alternative."""
     pixels = np.zeros((64, 64, 3))
     pixels[:, :32, 0], pixels[:, 32:, 2] = 1, 1
     source = poses.source

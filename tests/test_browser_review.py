@@ -58,7 +58,6 @@ WIDE = "return document.documentElement.scrollWidth <= window.innerWidth"
 
 
 def test_tables_sort_by_a_click(browser: Browser, tmp_path: Path) -> None:
-    """Nothing is blocked or fetched."""
     base = Result("s", "t", "done", "d", "i", verdict="sure", seconds={"total": 9.0})
     errors = {"a10": 0.3, "a2": 0.04, NASTY: None}
     results = [replace(base, target=name, error_mean=error) for name, error in errors.items()]

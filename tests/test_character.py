@@ -53,7 +53,6 @@ def same(mesh: Mesh) -> PointMap:
 
 
 def test_a_character_turns_and_grows_with_the_target(source: MeshFile) -> None:
-    """A target that is rotated, scaled and moved has displacements and joints that are, too."""
     turn, shift = Rotation.from_rotvec([0.4, -2, 1]).as_matrix(), np.array([5.0, 1, -2])
     target = moved_by(source.mesh, turn, 3.0, shift)
     made = transfer_character(source, MeshFile(target), as_map(same(source.mesh), source.mesh))
@@ -97,7 +96,6 @@ def test_displacements_turn_with_a_bent_arm(pair: ExamplePair, source: MeshFile)
 
 
 def test_joints_lie_where_the_body_is_bent(pair: ExamplePair, source: MeshFile) -> None:
-    """The true joints of the dancing creature, which the pose moves as it moves the surface."""
     places = as_map(PointMap(pair.truth_faces, pair.truth_weights), source.mesh)
     made = skin_of(transfer_character(source, MeshFile(pair.target), places))
     np.testing.assert_allclose(made.weights.sum(axis=1), 1)

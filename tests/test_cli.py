@@ -178,7 +178,6 @@ def test_closed_pipe_is_silent(tmp_path: Path) -> None:
 
 
 def test_interrupted_match_leaves_nothing(tmp_path: Path) -> None:
-    """Ctrl-C in the middle of the work: status 130, not a word, and no file."""
     made = shapes(tmp_path, 3000)
     before = sorted(tmp_path.iterdir())
     process = start("match", made.source, made.target, "--landmarks", made.landmarks, folder=tmp_path)
@@ -195,7 +194,6 @@ def test_interrupted_match_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_names_that_are_no_text(tmp_path: Path) -> None:
-    """A file name of bytes that are not UTF-8 is shown, not stumbled over."""
     if sys.platform != "linux":
         pytest.skip("file names are text here")
     process = start("info", os.fsdecode(b"\xff.off"), folder=tmp_path)

@@ -32,7 +32,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_numbers(folder: Path) -> None:
-    """Both methods are told, the kernel's map is right, and both were given the same."""
     told = json.loads((folder / "told.json").read_text())
     assert told["shape"] == "two poses"
     assert (told["source_vertices"], told["target_vertices"]) == (1500, 1200)
@@ -48,7 +47,6 @@ def test_numbers(folder: Path) -> None:
 
 
 def test_table_for_people(folder: Path) -> None:
-    """A row for each method, with its errors in per cent."""
     told = json.loads((folder / "told.json").read_text())
     sizes = {name: told[name] for name in ("source_vertices", "target_vertices")}
     file = io.StringIO()
@@ -91,7 +89,6 @@ def test_refused(words: list[str], told: str, tmp_path: Path, monkeypatch: pytes
 
 
 def test_shapes_to_try_the_other_commands_on(tmp_path: Path) -> None:
-    """They are written with their truth, which the landmarks are part of, and nothing is matched."""
     ran = run("demo", "--write", tmp_path / "new", "--vertices", "1500", "--landmarks", "4")
     assert ran.status == 0, ran.stderr
     assert [Path(line).name for line in ran.stdout.split()] == ["a.ply", "b.ply", "a.vts", "b.vts", "pairs.txt"]

@@ -69,7 +69,6 @@ def test_source_is_the_one_that_the_map_names(made: types.SimpleNamespace) -> No
 
 
 def test_vertices_without_counterpart_are_in_no_mean(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """All wrong ones are left out: what remains is right, and how much remains is told."""
     points = made.points.copy()
     points[:50] = -1
     save_map(tmp_path / "m.npz", Match(points))
@@ -86,7 +85,6 @@ def test_vertices_without_counterpart_are_in_no_mean(made: types.SimpleNamespace
 
 
 def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """A map that is nearer to the swapped truth is said to be swapped."""
     rng = np.random.default_rng(0)
     swapped = rng.permutation(300)
     (tmp_path / "sym.vts").write_text("".join(f"{v + 1}\n" for v in swapped))
@@ -130,7 +128,6 @@ def test_infinite_errors_are_null(tmp_path: Path) -> None:
 
 
 def test_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """One line for each, and no curve."""
     short = tmp_path / "short.vts"
     short.write_text("1\n2\n")
     large = tmp_path / "large.vts"

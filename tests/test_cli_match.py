@@ -143,7 +143,6 @@ def test_raw_is_the_map_before_refinement(
 
 
 def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """Coordinates as descriptors, and nothing else, tell every point from every other."""
     mesh = made.meshes[0]
     values = np.concatenate([mesh.vertices, mesh.vertices**2], axis=1)
     np.save(tmp_path / "s.npy", values)
@@ -158,7 +157,6 @@ def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
 
 
 def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """The search says how sure it is; its alternatives are maps too."""
     words = (*SEARCH, "--json", "-o", tmp_path / "m.npz")
     told = json.loads(match(made, *words, landmarks=False).stdout)
     assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")

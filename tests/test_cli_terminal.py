@@ -50,7 +50,6 @@ def test_styles_stay_and_controls_do_not() -> None:
 
 
 def test_names_of_files(tmp_path: Path) -> None:
-    """Of what is missing, of what is read, of what is odd, and of all that a match tells."""
     made = shapes(tmp_path, 300)
     named = [tmp_path / f"{EVIL}{side}.off" for side in "ab"]
     for path, old in zip(named, (made.source, made.target), strict=True):
@@ -110,7 +109,6 @@ def in_shell(redirection: str, *words: object) -> subprocess.CompletedProcess[st
 
 
 def test_ended_from_outside_leaves_nothing(tmp_path: Path) -> None:
-    """``kill``: what is half written is taken away."""
     code = (
         "import os, signal, sys, typer\n"
         "import kfmaps.cli.main\n"

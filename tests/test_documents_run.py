@@ -110,7 +110,6 @@ def test_lines_of_a_page_run(page: Path) -> None:
 
 
 def test_extensions_run(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The page that extends the package, with real matches."""
     for path in made.iterdir():
         shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
@@ -118,7 +117,6 @@ def test_extensions_run(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_lines_of_readme_run(place: Path) -> None:
-    """They begin with nothing."""
     for path in place.iterdir():
         path.unlink()
     assert tried((ROOT / "README.md").read_text(encoding="utf-8"), "README.md") >= 5

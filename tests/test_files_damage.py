@@ -96,7 +96,6 @@ def test_garbage(tmp_path: Path, suffix: str, content: bytes, headed: bool) -> N
 @given(st.data())
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_damage(tmp_path: Path, data: st.DataObject) -> None:
-    """A few bytes changed, put in or taken out."""
     suffix = data.draw(st.sampled_from(sorted(CONTENTS)))
     content = bytearray(CONTENTS[suffix])
     for _ in range(data.draw(st.integers(1, 3))):

@@ -313,6 +313,7 @@ HALF = np.full((4, 3), 0.5)
         ({"registered_vertices": np.zeros((4, 3)), "summary": SIZED}, "registered_vertices: expected shape (5, 3)"),
         ({"precise_faces": ONE + 1}, "precise_map.weights: expected a value, got none"),
         ({"precise_faces": ONE + 1, "precise_weights": HALF}, "numbers with sum 1 in each row"),
+        ({"precise_faces": ONE[1:] + 1, "precise_weights": 2 * HALF / 3}, "precise"),
         ({"raw_functional_map": np.zeros((2, 2, 2))}, "raw_functional_map: expected shape (any, any)"),
         (
             {"summary": '{"source_file": {"n_vertices": 2}}'},
@@ -335,7 +336,6 @@ HALF = np.full((4, 3), 0.5)
     ],
 )
 def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any], part: str, suffix: str) -> None:
-    """The same check for every format, before anything is done with the map."""
     content = {"target_to_source": ONE + (suffix == ".mat"), **content}
     file = io.BytesIO()
     if suffix == ".npz":

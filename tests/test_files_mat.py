@@ -27,7 +27,6 @@ MATLAB = {
 
 @pytest.mark.parametrize("compressed", [True, False])
 def test_mat_files_of_every_kind(compressed: bool) -> None:
-    """As SciPy reads them, which is right on files that are whole."""
     file = io.BytesIO()
     left_out = {"cells": np.array([[1, "a"]], dtype=object), "complex": np.array([1j])}
     scipy.io.savemat(file, MATLAB | left_out, do_compression=compressed)

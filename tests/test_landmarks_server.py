@@ -367,7 +367,6 @@ def test_the_browsers_command_line_does_not_have_the_address(tmp_path: Path, mon
 
 
 def test_names_are_saved_with_the_pairs_and_read_back(serve: Serve, tmp_path: Path) -> None:
-    """In any letters, as one line of printable text each; the pairs are read as if there were none."""
     client = serve(output=tmp_path / "pairs.txt")
     names = ["left # hand\n\x1b[1m", "głowa"]
     assert client.post("save", {"pairs": PAIRS, "names": names}).status == 200

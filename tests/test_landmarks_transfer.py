@@ -177,7 +177,6 @@ def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
 
 
 def test_a_map_that_swaps_left_and_right_is_recognized(scans: Path, tmp_path: Path) -> None:
-    """The landmarks of a symmetric shape, carried by a map that swaps its sides, are a mirror image."""
     template = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))[0]
     results = maps(tmp_path, [("a", "b")])
     mesh = read_mesh(scans / "b.ply")

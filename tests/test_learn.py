@@ -89,7 +89,6 @@ def shaken(model, size=0.3):
 
 @pytest.mark.parametrize("parts", PARTS, ids="+".join)
 def test_what_is_learned_is_what_the_settings_say(parts, lessons):
-    """The model's kernel matrix is that of the record, whatever the parameters."""
     model = shaken(Model(CONFIG, lessons, parts, rank=ROWS))
     D_s, D_t = lessons[0].descriptors_s, lessons[0].descriptors_t
     with torch.no_grad():
@@ -213,7 +212,6 @@ def test_columns_of_every_kind():
 
 
 def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
-    """From a bad start the error falls; the same seed gives the same; stopped and resumed gives the same."""
     poor = replace(CONFIG, kernel=Gaussian(30.0), weights=Weights(1.0, 1.0, 0.01))
 
     def model():
@@ -242,7 +240,6 @@ def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
 
 
 def test_patience(lessons):
-    """A rate that only does harm stops early, and the start is kept."""
     model = Model(CONFIG, lessons, ["terms"])
     before = model.settings()
     state = learn(model, lessons[:1], lessons[1:2], replace(QUICK, epochs=9, rate=3.0, patience=1))

@@ -118,7 +118,6 @@ def test_every_kernel(name, case):
 
 @pytest.mark.parametrize("name", [name for name in KERNELS if name not in ("tanh", "linear", "polynomial")])
 def test_features_of_samples(name, case):
-    """The way that learning goes: Nyström features, operators, a positive definite energy."""
     source, target, F, G = case
     build, numbers = KERNELS[name]
 
@@ -147,7 +146,6 @@ def test_the_map_is_that_of_the_other_solver(case):
 
 
 def test_memory_does_not_grow_with_the_iterations(case):
-    """What the graph holds is the same however many steps were made."""
     source, target, F, G = case
 
     def held(solver):

@@ -92,7 +92,6 @@ def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
 
 
 def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
-    """They change nothing for the others, lead nowhere else, and are there as they were given."""
     maps = true_maps({name: shapes[name] for name in ("s0", "s1", "s2")})
     usual = kfmaps.match_collection({name: shapes[name] for name in ("s0", "s1", "s2")}, maps, config=LOCAL)
     part = np.where(np.arange(N) % 3 == 0, -1, np.arange(N))

@@ -61,7 +61,6 @@ def test_their_map_is_read_in_their_bases() -> None:
 
 
 def test_our_map_is_theirs_with_our_bases() -> None:
-    """A match of their meshes; its map and bases put into them."""
     one, two = (tri_mesh(mesh, np.ones(40)) for mesh in (MESH, OTHER))
     marks = np.stack([ORDER[:5], np.arange(5)], axis=1)
     found = kfmaps.match(one, two, CONFIG, landmarks=marks)

@@ -113,7 +113,6 @@ def test_panels_lie_apart_and_inside(count: int) -> None:
 
 
 def test_shapes_of_one_area_are_drawn_at_one_scale() -> None:
-    """The unit of a file does not show: a shape a thousand times as large fills its panel alike."""
     figure = grid_figure(blob(200), panels(1, 1000.0))
     small, large = (ax.get_xlim() for ax in figure.axes)
     np.testing.assert_allclose(np.array(large) / 1000, small, rtol=1e-9)

@@ -113,7 +113,6 @@ def test_nothing_slides_where_there_is_no_curve(curves: list) -> None:
 
 
 def test_nothing_slides_among_four_points() -> None:
-    """A spline through four points does not bend."""
     points = np.vstack([LINE[[0, 2, 6]], LINE[[0, 6]], FIXED[:1]])
     assert slide_semilandmarks(points, points, [(np.arange(3), False)]) is points
 

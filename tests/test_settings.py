@@ -120,7 +120,6 @@ SETTINGS = list(walk(Config, KINDS))
 
 
 def test_every_setting_is_documented() -> None:
-    """A sentence and a range for each; bounds hold for the record's own default."""
     for path, cls, one in SETTINGS:
         assert one.help, (path, cls)
         assert one.values(KINDS), (path, cls)
@@ -163,7 +162,6 @@ def test_numbers_of_numpy_are_numbers() -> None:
 
 @pytest.mark.parametrize(("path", "cls", "one"), SETTINGS, ids=[f"{p} {c.__name__}" for p, c, _ in SETTINGS])
 def test_assignment_reaches_every_setting(path: str, cls: type, one: Setting) -> None:
-    """A value unlike the one before is found where it was put."""
     section = path.rpartition(".")[0]
     if cls in (Metric, Sum, Product):
         return  # only settings files can say it, see below
@@ -200,7 +198,6 @@ CONFIGS = [
 @pytest.mark.parametrize("base", [Config(), CONFIGS[len(PRESETS) + 1]], ids=["default", "another"])
 @pytest.mark.parametrize("config", CONFIGS, ids=range(len(CONFIGS)))
 def test_settings_file_round_trip(config: Config, base: Config, tmp_path: Path) -> None:
-    """What is written is read back identically, whatever it is laid over."""
     path = tmp_path / "settings.toml"
     for comments in (True, False):
         path.write_text(settings_text(config, comments), encoding="utf-8")

@@ -143,7 +143,6 @@ def test_what_hangs_together_not_has_no_common_basis() -> None:
 
 
 def test_each_part_has_the_basis_that_it_has_alone() -> None:
-    """Two families that no pair joins, one with a shape more, and a pair by itself."""
     rng = np.random.default_rng(3)
     values = np.sort(rng.uniform(1, 60, (9, K)), axis=1)
 

@@ -4,7 +4,6 @@ import json
 import types
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -153,24 +152,6 @@ def test_the_source_morphs_into_the_target(made: types.SimpleNamespace, tmp_path
     np.testing.assert_allclose(inside, 2 * made.pair.source.vertices, atol=1e-9)
 
 
-def test_map_files_keep_points_and_refuse_wrong_ones(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    found = load_map(made.map)
-    for suffix in (".npz", ".mat"):
-        save_map(tmp_path / f"m{suffix}", found)
-        place = known(load_map(tmp_path / f"m{suffix}").precise_map)
-        np.testing.assert_array_equal(place.faces, made.place.faces)
-        np.testing.assert_allclose(place.weights, made.place.weights)
-    wrong: list[dict[str, Any]] = [
-        {"precise_map": PointMap(made.place.faces, made.place.weights * 2)},
-        {"precise_map": PointMap(made.place.faces[1:], made.place.weights)},
-        {"registration": MatchRegistration(np.zeros((3, 2)))},
-    ]
-    for fields in wrong:
-        save_map(tmp_path / "wrong.npz", replace(found, **fields), force=True)
-        with pytest.raises(kfmaps.InvalidInput):
-            load_map(tmp_path / "wrong.npz")
-
-
 def test_glb_keeps_colours_and_shape() -> None:
     mesh = unit_area(datasets.sphere(200, rng=0))
     colors = np.random.default_rng(0).uniform(size=(len(mesh.vertices), 3))
@@ -182,7 +163,6 @@ def test_glb_keeps_colours_and_shape() -> None:
 
 
 def test_normals_of_a_glb_have_length_one_throughout() -> None:
-    """A vertex of no face too."""
     data = format_glb(MeshFile(Mesh(np.eye(4, 3), np.array([[0, 1, 2]]))))
     tree, size = tree_of(data), int.from_bytes(data[12:16], "little")
     accessor = tree["accessors"][tree["meshes"][0]["primitives"][0]["attributes"]["NORMAL"]]
@@ -220,7 +200,6 @@ def truth_files(made: types.SimpleNamespace, folder: Path) -> list[object]:
 
 
 def test_the_command_carries_functions_with_products(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """Smooth functions come out as they are at the true points, and the better the more products there are."""
     values = made.pair.source.vertices - made.pair.source.vertices.mean(axis=0)
     np.save(tmp_path / "x.npy", values)
     errors = {}

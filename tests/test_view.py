@@ -354,7 +354,6 @@ def test_colours_are_mixed_inside_triangles_where_the_map_has_points_there(pair:
 
 
 def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarray]) -> None:
-    """Coordinates for each corner and the picture, of both shapes; none where the source has no picture."""
     source, target, points = pair
     picture = encode_png(np.random.default_rng(0).random((2100, 30, 3)))
     file = MeshFile(source, None, np.random.default_rng(1).random((len(source.vertices), 2)), source.faces, picture)
