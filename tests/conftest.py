@@ -8,7 +8,7 @@ import importlib.util
 import os
 import pkgutil
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,7 +17,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import kfmaps
-from kfmaps import MissingDependency
+from kfmaps import InvalidInput, MissingDependency
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
@@ -156,17 +156,31 @@ def interruptible() -> Iterator[None]:
 
 @pytest.fixture
 def workers_here(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The workers of a collection are threads of this process: they start in a moment, which processes do not."""
-    from distributed import Client, LocalCluster
+    """The work of a collection is done in this process, one item after another, without workers."""
 
-    @contextlib.contextmanager
-    def local_workers(_count: int | None) -> Iterator[Client]:
-        options = {"processes": False, "n_workers": 1, "threads_per_worker": 1, "dashboard_address": None}
-        options["scheduler_kwargs"] = {"dashboard_address": "127.0.0.1:0"}  # another run may have the default port
-        with LocalCluster(protocol="inproc://", **options) as cluster, Client(cluster) as client:
-            yield client
+    def imap(_pool: Any, function: Callable, items: Sequence[Any], **_: object) -> Iterator[tuple[int, Any]]:
+        for number, item in enumerate(items):
+            try:
+                yield number, function(item)
+            except Exception as error:
+                yield number, error
 
-    monkeypatch.setattr("kfmaps.batch.jobs._local_workers", local_workers)
+    monkeypatch.setattr("kfmaps.batch.jobs.WorkerPool.imap", imap)
+    monkeypatch.setattr("kfmaps.batch.jobs.WorkerPool.n_threads", 1, raising=False)
+    monkeypatch.setattr("kfmaps.batch.run._check_workers", lambda *_: None)
+
+
+def refusal(read: Callable[[Path], object], path: Path, content: bytes | None = None) -> str:
+    """Return the one line in which a reader refuses a file, or one beside it, with what was expected."""
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(InvalidInput) as caught:
+        read(path)
+    told = str(caught.value)
+    assert "\n" not in told
+    assert f"{path.parent}{os.sep}" in told
+    assert "expected" in told
+    return told
 
 
 Value = TypeVar("Value")

@@ -14,6 +14,7 @@ from collecting import bent
 from kfmaps.batch.landmark_tables import write_study
 from kfmaps.batch.layout import find_collection
 from kfmaps.batch.transfer_landmarks import read_templates, template_landmarks
+from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, write_landmark_sets
 from kfmaps.viz.landmark_review import ReviewServer
@@ -29,17 +30,23 @@ QUICK = (
 """Options with which a pair of the study is matched in a moment."""
 
 
+def write_scans(folder: Path, size: float = 1.0, missing: str = "") -> Path:
+    """Write four poses whose vertices correspond by number, and beside their folder the landmarks of each."""
+    (folder / "scans").mkdir()
+    for i, name in enumerate("abcd"):
+        mesh = bent(i, N)
+        mesh = Mesh(size * mesh.vertices + 4 * (size - 1), mesh.faces)
+        write_mesh(folder / "scans" / f"{name}.ply", mesh)
+        points = mesh.vertices[AT]
+        points[4] = np.nan if name == missing else points[4]
+        write_landmark_sets(folder / f"{name}.mrk.json", [LandmarkSet(LABELS, points, space="LPS")])
+    return folder / "scans"
+
+
 @pytest.fixture
 def study(tmp_path: Path) -> Path:
     """A study of four poses; that of ``b`` has a flagged landmark and a missing one, ``d`` is left out."""
-    scans = tmp_path / "scans"
-    scans.mkdir()
-    for i, name in enumerate("abcd"):
-        mesh = bent(i, N)
-        write_mesh(scans / f"{name}.ply", mesh)
-        points = mesh.vertices[AT]
-        points[4] = np.nan if name == "b" else points[4]
-        write_landmark_sets(tmp_path / f"{name}.mrk.json", [LandmarkSet(LABELS, points, space="LPS")])
+    scans = write_scans(tmp_path, missing="b")
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abcd"], find_collection(scans))
     made = [template_landmarks(one) for one in templates]
     carried = [replace(one, verdict="sure", probability=0.875, n_maps=1) for one in made[1:]]

@@ -6,6 +6,7 @@ import base64
 import json
 import re
 import warnings
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from trimesh.exchange.gltf import export_gltf
 from trimesh.visual import TextureVisuals
 
 from characters import changed
-from conftest import corner_uv, fibonacci_sphere, known
+from conftest import corner_uv, fibonacci_sphere, known, refusal
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.geometry.mesh import Mesh, face_normals
 from kfmaps.geometry.topology import topology
@@ -42,14 +43,7 @@ def scene_of(*transforms: np.ndarray) -> trimesh.Scene:
     return scene
 
 
-def refused(path: Path, content: bytes) -> str:
-    path.write_bytes(content)
-    with pytest.raises(InvalidInput) as caught:
-        read_mesh(path)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
-
-
+refused = partial(refusal, read_mesh)
 BINARY_STL = exported(MESH, "stl")
 
 

@@ -9,6 +9,7 @@ import re
 import tracemalloc
 import zipfile
 from dataclasses import fields, is_dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ import scipy.io
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from conftest import blob
+from conftest import blob, refusal
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import Config
 from kfmaps.fmap.precise import PointMap
@@ -158,13 +159,7 @@ def test_existing_files_and_names(tmp_path: Path, suffix: str) -> None:
         load_map(tmp_path / "m")
 
 
-def refused(path: Path, content: bytes) -> str:
-    path.write_bytes(content)
-    with pytest.raises(InvalidInput) as caught:
-        load_map(path)
-    assert path.name in str(caught.value)
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
+refused = partial(refusal, load_map)
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".mat"])

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
+from conftest import refusal
 from kfmaps import Match
 from kfmaps._arrays import InvalidInput
 from kfmaps.io import (
@@ -65,11 +66,7 @@ def test_landmarks_round_trip(tmp_path: Path, suffix: str, first: int) -> None:
     ],
 )
 def test_bad_landmarks(tmp_path: Path, content: bytes, part: str) -> None:
-    (tmp_path / "a.txt").write_bytes(content)
-    with pytest.raises(InvalidInput) as caught:
-        read_landmarks(tmp_path / "a.txt")
-    assert part in str(caught.value)
-    assert "a.txt" in str(caught.value)
+    assert part in refusal(read_landmarks, tmp_path / "a.txt", content)
 
 
 @pytest.mark.parametrize(("suffix", "one_based"), [(".vts", True), (".txt", False)])
@@ -169,7 +166,7 @@ def lying_npy() -> bytes:
         (".csv", b"1,2\n3\n", "line 2: expected 2 values"),
         (".csv", b'"a\n', "comma-separated values"),
         (".txt", b"\xff\xfe", "UTF-8"),
-        (".npy", npy(np.arange(9))[:-1], "expected data for shape|complete .npy"),
+        (".npy", npy(np.arange(9))[:-1], "complete .npy"),
         (".npy", b"hello", "complete .npy"),
         (".npy", npy(np.array([1, "a"], dtype=object), True), "complete .npy"),
         (".npy", pickle.dumps([1]), "complete .npy"),
@@ -179,11 +176,7 @@ def lying_npy() -> bytes:
     ],
 )
 def test_bad_values(tmp_path: Path, suffix: str, content: bytes, part: str) -> None:
-    (tmp_path / f"a{suffix}").write_bytes(content)
-    with pytest.raises(InvalidInput, match=part) as caught:
-        read_values(tmp_path / f"a{suffix}")
-    assert f"a{suffix}" in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert part in refusal(read_values, tmp_path / f"a{suffix}", content)
 
 
 @pytest.mark.parametrize(

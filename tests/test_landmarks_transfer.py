@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from collecting import CONFIG, bent, done
+from collecting import CONFIG, done
 from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.landmark_tables import _sliders, write_study
@@ -38,20 +38,12 @@ from kfmaps.io import load_map, read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.result import Match
-from reviewing import AT, LABELS, QUICK, N
+from reviewing import AT, LABELS, QUICK, N, write_scans
 
 
 @pytest.fixture
 def scans(tmp_path: Path) -> Path:
-    """Four poses, a, b, c, d, whose vertices correspond by number, and landmarks of each of them."""
-    folder = tmp_path / "scans"
-    folder.mkdir()
-    for i, name in enumerate("abcd"):
-        mesh = bent(i, N)
-        mesh = Mesh(10 * mesh.vertices + 40, mesh.faces)
-        write_mesh(folder / f"{name}.ply", mesh)
-        write_landmark_sets(tmp_path / f"{name}.mrk.json", [LandmarkSet(LABELS, mesh.vertices[AT], space="LPS")])
-    return folder
+    return write_scans(tmp_path, size=10)
 
 
 def maps(folder: Path, pairs: list[tuple[str, str]], chance: float = 0.9) -> dict[Pair, Result]:

@@ -109,16 +109,8 @@ def test_values_of_a_part_come_back_to_what_both_have(made: types.SimpleNamespac
     labels = np.arange(len(made.part.vertices))
     np.save(tmp_path / "x.npy", labels)
     for more, lost in (((), -1), (("--lost", 7), 7)):
-        run(
-            "transfer",
-            made.folder / "down.npz",
-            tmp_path / "x.npy",
-            "--back",
-            *more,
-            "--force",
-            "-o",
-            tmp_path / "l.npy",
-        )
+        words = ("transfer", made.folder / "down.npz", tmp_path / "x.npy", "--back", *more, "--force")
+        run(*words, "-o", tmp_path / "l.npy")
         np.testing.assert_array_equal(np.load(tmp_path / "l.npy")[~made.common], lost)
 
 
@@ -134,38 +126,27 @@ def test_values_of_a_whole_come_back_to_its_part(made: types.SimpleNamespace, tm
     assert np.linalg.norm(found - made.true, axis=1)[known].mean() / made.size < NEAR
 
 
-def named(path: Path, vertices: np.ndarray) -> None:
-    path.write_text("".join(f"p{v},{v}\n" for v in vertices), encoding="utf-8")
-
-
-def read(path: Path) -> np.ndarray:
-    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()[1:]]
+def points_over(map: Path, chosen: np.ndarray, folder: Path, *more: str) -> np.ndarray:
+    """Vertex and place, NaN for nowhere, of named points that the command carries."""
+    lines(folder / "a.csv", [f"p{v},{v}" for v in chosen])
+    run("transfer", map, folder / "a.csv", "--points", *more, "-o", folder / "b.csv")
+    rows = [line.split(",") for line in (folder / "b.csv").read_text(encoding="utf-8").splitlines()[1:]]
     return np.array([[float("nan" if cell == "NA" else cell) for cell in row[1:5]] for row in rows])
 
 
-@pytest.mark.parametrize(("map", "more"), [("down.npz", ()), ("up.npz", ("--back",))])
-def test_points_outside_the_part_are_nowhere(
-    made: types.SimpleNamespace, tmp_path: Path, map: str, more: tuple[str, ...]
-) -> None:
+@pytest.mark.parametrize("down", [True, False])
+def test_points_go_over_both_maps_both_ways(made: types.SimpleNamespace, tmp_path: Path, down: bool) -> None:
+    """Those of the whole outside the part are nowhere."""
+    map, to_part, to_whole = ("down.npz", (), ("--back",)) if down else ("up.npz", ("--back",), ())
     chosen = np.random.default_rng(0).permutation(len(made.whole.vertices))[:60]
-    named(tmp_path / "a.csv", chosen)
-    run("transfer", made.folder / map, tmp_path / "a.csv", "--points", *more, "-o", tmp_path / "b.csv")
-    found = read(tmp_path / "b.csv")
+    found = points_over(made.folder / map, chosen, tmp_path, *to_part)
     np.testing.assert_array_equal(found[:, 0] == -1, ~made.common[chosen])
     np.testing.assert_array_equal(np.isnan(found[:, 1:]).all(axis=1), ~made.common[chosen])
     inside = made.common[chosen]
     ends = made.true[found[inside, 0].astype(int)]
     assert np.linalg.norm(ends - made.whole.vertices[chosen[inside]], axis=1).mean() / made.size < 2 * NEAR
-
-
-@pytest.mark.parametrize(("map", "more"), [("down.npz", ("--back",)), ("up.npz", ())])
-def test_points_of_a_part_are_on_the_whole(
-    made: types.SimpleNamespace, tmp_path: Path, map: str, more: tuple[str, ...]
-) -> None:
     chosen = np.random.default_rng(0).permutation(len(made.part.vertices))[:40]
-    named(tmp_path / "a.csv", chosen)
-    run("transfer", made.folder / map, tmp_path / "a.csv", "--points", *more, "-o", tmp_path / "b.csv")
-    found = read(tmp_path / "b.csv")
+    found = points_over(made.folder / map, chosen, tmp_path, *to_whole, "--force")
     there = found[:, 0] >= 0
     assert there.mean() > 0.85
     assert np.linalg.norm(found[there, 1:] - made.true[chosen[there]], axis=1).mean() / made.size < NEAR
