@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_collection
 from conftest import blob
+from kfmaps._arrays import InvalidInput
 from kfmaps.batch import cache, work
 from kfmaps.batch.cache import (
     _samples_path,
@@ -144,6 +145,8 @@ def test_nothing_done_is_done_again(folder: Path, tmp_path: Path) -> None:
     first = done(plan)
     before = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*") if p.is_file()}
     assert done(plan) == first
+    with pytest.raises(InvalidInput, match="another output folder"):
+        plan_of(folder, tmp_path, seed=9)
     assert plan_of(folder, tmp_path).todo == ()
     assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*") if p.is_file()} == before
 

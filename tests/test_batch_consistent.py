@@ -19,6 +19,7 @@ from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan, graph_pairs, make_plan
 from kfmaps.batch.results import Result, read_result, result_path
+from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.io import load_map, save_map
@@ -102,6 +103,14 @@ def test_the_wrong_map_is_replaced_and_no_other(run: tuple[Plan, list[Result]]) 
     assert sum(bool(r["changed"]) for r in table.values()) == 1
     with pytest.raises(InvalidInput, match="pairs that are matched"):
         make_consistent(plan, [], Alone())
+
+
+@pytest.mark.usefixtures("workers_here")
+def test_a_run_logs_what_is_replaced(run: tuple[Plan, list[Result]]) -> None:
+    plan = replace(run[0], todo=())
+    outcome = run_batch(plan, worst=0, consistent=True)
+    assert sum(bool(result.changed) for result in outcome.results) == 1
+    assert "b1 → b3 replaced by composition through b" in (plan.folder / "run.log").read_text(encoding="utf-8")
 
 
 def test_what_is_finished_is_found_again(run: tuple[Plan, list[Result]]) -> None:
