@@ -18,7 +18,7 @@ from kfmaps.geometry.eigen.factorization import SparseMatrix
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
 from kfmaps.geometry.point_cloud import cloud_laplacian
 
-_MIN_ANGLE_RATIO = 1e-6  # angle below which a face counts as one with longer edges, and how much longer they are
+_MIN_ANGLE = 1e-6  # angle below which a face is mollified, and by how much of its longest edge all become longer
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +34,7 @@ class Basis:
     functions : (n, k)
         One eigenfunction a column: ``functionsᵀ diag(mass) functions = I``.
     mass : (n,)
-        Area around each vertex (lumped). Zero at a vertex that no face uses, and at all but the first of vertices that
-        share a place.
+        Area around each vertex (lumped). Zero at a vertex that no face uses, and at all but the first of welded ones.
     """
 
     eigenvalues: Array
@@ -64,9 +63,9 @@ class Basis:
         return replace(self, eigenvalues=self.eigenvalues[:k], functions=self.functions[:, :k])
 
     def to(self, device: str) -> Basis:
-        """Return the basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
+        """Return the basis, of the same class, as PyTorch tensors on ``device``.
 
-        It stays of its kind. ``"torch"`` is PyTorch on the CPU.
+        ``"torch"`` is PyTorch on the CPU; ``"cpu"`` and ``"numpy"`` give NumPy arrays.
 
         Raises
         ------
@@ -93,10 +92,9 @@ class Basis:
 
 
 def eigenvalue_tolerance(basis: Basis) -> float:
-    """Return the eigenvalue below which one counts as zero, that of a component's constant.
+    """Return the eigenvalue below which one counts as zero: a millionth of ``4π / area``.
 
-    One machine gives 0, another 1e-12. It is a millionth of ``4π / area``, Weyl's estimate of the distance between
-    eigenvalues.
+    That is Weyl's estimate of the distance between eigenvalues. Rounding makes zeros as large as 1e-12.
     """
     return 4e-6 * np.pi / float(to_numpy(basis.mass).sum())
 
@@ -105,49 +103,48 @@ def cotangent_laplacian(mesh: Mesh) -> csc_array:
     """Return the weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
 
     The entry of an edge is minus half the sum of the cotangents of the angles opposite it (Pinkall and Polthier,
-    Computing discrete minimal surfaces, 1993). Of a face with an angle below 1e-6, or so close to π, the edges count as
-    longer by 1e-6 of the longest (Sharp and Crane's mollification, for those faces alone), so that faces without area
-    give large numbers rather than infinite ones, and never negative energies; those with two equal corners are left
-    out.
+    Computing discrete minimal surfaces, 1993). Faces with an angle below 1e-6, or so close to π, are mollified (Sharp
+    and Crane 2020): all their edges count as longer by 1e-6 of the longest, so that faces without area give large
+    numbers rather than infinite ones. Faces with two equal corners are left out.
     """
     n = len(mesh.vertices)
     faces = mesh.faces[proper_faces(mesh.faces)]
-    halves, thin = [], np.zeros(len(faces), dtype=bool)
+    half_cotangents, is_thin = [], np.zeros(len(faces), dtype=bool)
     for corner in range(3):
         tip, i, j = (faces[:, (corner + step) % 3] for step in range(3))
         a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
         dot = (a * b).sum(axis=1)
         sine = np.linalg.norm(np.cross(a, b), axis=1)
-        wide = sine > _MIN_ANGLE_RATIO * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
-        halves.append(np.divide(dot, sine, out=np.zeros_like(dot), where=wide) / 2)
-        thin |= ~wide
-    if thin.any():
-        for half, mended in zip(halves, _mollified(mesh.vertices[faces[thin]]), strict=True):
-            half[thin] = mended
+        is_wide = sine > _MIN_ANGLE * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        half_cotangents.append(np.divide(dot, sine, out=np.zeros_like(dot), where=is_wide) / 2)
+        is_thin |= ~is_wide
+    if is_thin.any():
+        for half, mollified in zip(half_cotangents, _mollify(mesh.vertices[faces[is_thin]]), strict=True):
+            half[is_thin] = mollified
     entries, rows, columns = [], [], []
-    for corner, half in enumerate(halves):
+    for corner, half in enumerate(half_cotangents):
         _, i, j = (faces[:, (corner + step) % 3] for step in range(3))
         entries += [-half, -half, half, half]
         rows += [i, j, i, j]
         columns += [j, i, i, j]
-    places = (np.concatenate(rows), np.concatenate(columns))
-    return coo_array((np.concatenate(entries), places), shape=(n, n)).tocsc()
+    indices = (np.concatenate(rows), np.concatenate(columns))
+    return coo_array((np.concatenate(entries), indices), shape=(n, n)).tocsc()
 
 
-def _mollified(corners: np.ndarray) -> np.ndarray:
-    """Half the cotangents at the ``corners`` (f, 3, 3) of faces, their edges made longer, (3, f)."""
+def _mollify(corners: np.ndarray) -> np.ndarray:
+    """Return half the cotangents at the ``corners`` (f, 3, 3) of mollified faces, (3, f)."""
     opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
     longest = opposite.max(axis=1, keepdims=True)
-    order = -np.sort(-(opposite + _MIN_ANGLE_RATIO * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
+    order = -np.sort(-(opposite + _MIN_ANGLE * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
     a, b, c = order
     area = 0.25 * np.sqrt(np.maximum((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0))
-    squares = (opposite + _MIN_ANGLE_RATIO * longest).T ** 2
-    above = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
-    return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
+    squares = (opposite + _MIN_ANGLE * longest).T ** 2
+    numerator = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
+    return np.divide(numerator, 8 * area, out=np.zeros_like(numerator), where=area > 0)
 
 
 def _operators(mesh: Mesh, laplacian: str, k: int) -> tuple[SparseMatrix, np.ndarray]:
-    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices, with ``k`` eigenpairs."""
+    """Return the weak Laplacian (n, n) and lumped mass (n,) of a cleaned mesh or cloud of more than ``k`` vertices."""
     if len(mesh.vertices) <= k:
         wanted = f"fewer eigenfunctions than the {len(mesh.vertices)} vertices in use"
         raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
@@ -172,10 +169,9 @@ def laplace_basis(
     """Return the first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
     Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue zero for
-    each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
-    (:func:`kfmaps.geometry.clean.weld_vertices`), and points of a cloud in one place count as one: the first has the
-    mass, the others its functions. A vertex that no face uses has no mass and the functions of the used vertex nearest
-    in space.
+    each), faces without area, edges with more than two faces. Coincident open edges and coincident points of a cloud
+    are welded (:func:`kfmaps.geometry.clean.weld_vertices`): the first vertex has the mass, the others its functions. A
+    vertex that no face uses has no mass and the functions of the used vertex nearest in space.
 
     Parameters
     ----------
@@ -190,12 +186,12 @@ def laplace_basis(
         triangles however bad (Sharp and Crane, A Laplacian for nonmanifold triangle meshes, 2020). ``"cotangent"``:
         :func:`cotangent_laplacian` with barycentric areas. Clouds always take the robust one.
     rng : int or numpy.random.Generator
-        Start vectors of the eigensolver. The same input gives the same basis; each function's entry of largest
-        magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.
+        Start vectors of the eigensolver. The same input gives the same basis. Each function's entry of largest
+        magnitude is positive. Signs, and bases of repeated eigenvalues, are arbitrary.
     progress : callable, optional
-        Told about how much is done, from 0 to 1.
+        Called with about how much is done, from 0 to 1.
     tolerance : float
-        Of the eigensolver; from 1e-6 on it is a looser kind of one, see
+        Of the eigensolver; from 1e-6 on it is another one, see
         :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
 
     Returns
@@ -211,10 +207,10 @@ def laplace_basis(
         When a residual is above the tolerance; see :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
     """
     check_is_mesh(mesh)
-    part = clean_mesh(mesh)
-    stiffness, area = _operators(part.mesh, laplacian, check_count(k, "k"))
+    cleaned = clean_mesh(mesh)
+    stiffness, area = _operators(cleaned.mesh, laplacian, check_count(k, "k"))
     pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, progress=progress)
-    if part.whole:
+    if cleaned.whole:
         return Basis(pairs.values, pairs.vectors, area)
-    mass = np.bincount(part.to_original, area, minlength=len(mesh.vertices))
-    return Basis(pairs.values, pairs.vectors[part.to_clean], mass)
+    mass = np.bincount(cleaned.to_original, area, minlength=len(mesh.vertices))
+    return Basis(pairs.values, pairs.vectors[cleaned.to_clean], mass)

@@ -15,12 +15,19 @@ def unique_vertices(vertices: np.ndarray) -> np.ndarray:
     """Return for each of ``vertices (n, 3)``, finite, the number of the first one at the same position: (n,)."""
     points = vertices + 0.0  # makes -0.0 and 0.0 the same
     order = np.lexsort(points.T)
-    moved = np.ones(len(points), dtype=bool)
-    moved[1:] = (points[order[1:]] != points[order[:-1]]).any(axis=1)
+    is_new = np.ones(len(points), dtype=bool)
+    is_new[1:] = (points[order[1:]] != points[order[:-1]]).any(axis=1)
     first = np.empty(len(points), dtype=np.int64)
     # lexsort is stable, so the first of each run has the smallest number
-    first[order] = order[moved][np.cumsum(moved) - 1]
+    first[order] = order[is_new][np.cumsum(is_new) - 1]
     return first
+
+
+def renumbering(rows: np.ndarray, n: int) -> np.ndarray:
+    """Return the new numbers of ``n`` items of which only ``rows`` are kept, in that order, (n,); −1 for the others."""
+    number = np.full(n, -1, dtype=np.int64)
+    number[rows] = np.arange(len(rows))
+    return number
 
 
 def component_labels(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
@@ -37,7 +44,7 @@ def component_labels(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.
 
 
 def proper_faces(faces: np.ndarray) -> np.ndarray:
-    """Return which of ``faces (f, 3)`` name three different vertices, (f,) bool."""
+    """Return which of ``faces (f, 3)`` have three different corners, (f,) bool."""
     return (faces != np.roll(faces, 1, axis=1)).all(axis=1)
 
 
@@ -47,18 +54,23 @@ def half_edges(faces: np.ndarray) -> np.ndarray:
 
 
 def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the half-edges of ``faces (f, 3)`` that are alone on their edge, and those that are two.
+    """Return the half-edges of ``faces (f, 3)`` on boundary edges and on edges of two faces.
 
-    Half-edge 3 face + i goes from corner i to corner i + 1. ``n``: number of vertices. Returns ``rim (b,)``: numbers of
-    the first; ``pairs (2, p)``: of the others; ``sharing (e,)``: how many half-edges each edge has.
+    Half-edge 3 face + i goes from corner i to corner i + 1. ``n``: number of vertices. Returns ``boundary (b,)``;
+    ``pairs (2, p)``; ``counts (e,)``: number of half-edges of each edge.
     """
-    tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edge = np.minimum(tail, head) * n + np.maximum(tail, head)
+    edge = _edge_keys(faces, n)
     order = np.argsort(edge, kind="stable")
     start = np.flatnonzero(np.diff(edge[order], prepend=-1))
-    sharing = np.diff(start, append=len(order))
-    two = start[sharing == 2]
-    return order[start[sharing == 1]], np.stack([order[two], order[two + 1]]), sharing
+    counts = np.diff(start, append=len(order))
+    two = start[counts == 2]
+    return order[start[counts == 1]], np.stack([order[two], order[two + 1]]), counts
+
+
+def _edge_keys(faces: np.ndarray, n: int) -> np.ndarray:
+    """Return one number for the edge of each half-edge, (3 f,), which sorts ten times as fast as a pair."""
+    tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    return np.minimum(tail, head) * n + np.maximum(tail, head)
 
 
 def mesh_edges(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -66,17 +78,15 @@ def mesh_edges(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
 
     Returns (e, 2): vertices of each edge, the smaller number first, in ascending order; (e,): numbers of faces.
     """
-    tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    # One number for each edge: rows are sorted ten times as slowly, and np.unique takes twenty times as long.
-    keys = np.sort(np.minimum(tail, head) * n + np.maximum(tail, head))
+    keys = np.sort(_edge_keys(faces, n))  # np.unique takes twenty times as long
     starts = np.flatnonzero(np.diff(keys, prepend=-1))
     return np.stack(np.divmod(keys[starts], max(n, 1)), axis=1), np.diff(starts, append=len(keys))
 
 
 def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
     """Return the edges that only one of ``faces (f, 3)`` has, (b, 2), as :func:`mesh_edges` returns them."""
-    edges, sharing = mesh_edges(faces, n)
-    return edges[sharing == 1]
+    edges, counts = mesh_edges(faces, n)
+    return edges[counts == 1]
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""The graph whose shortest paths are geodesics: mesh edges, and straight lines over unfolded strips of faces."""
+"""A graph whose shortest paths are nearly geodesics: mesh edges, and straight lines over unfolded strips of faces."""
 
 from __future__ import annotations
 
@@ -16,20 +16,15 @@ from kfmaps.geometry.point_cloud import cloud_edges
 
 @dataclass(frozen=True, eq=False)
 class _Windows:
-    """What source vertices see through edges, each source at the origin of the plane its faces lie in.
+    """Windows: edges that sources see over a strip of faces, which is unfolded into a plane with the source at 0."""
 
-    ``right`` and ``left`` (w,) are the ends of the edge, as seen from the source, ``right_at`` and ``left_at`` (w, 2)
-    their places in the plane; ``low`` and ``high`` (w, 2) are the rays that bound the view through all edges crossed so
-    far, and ``edge`` (w,) is the corner, opposite the edge, in the face seen last.
-    """
-
-    source: np.ndarray
-    edge: np.ndarray
-    right: np.ndarray
+    source: np.ndarray  # (w,): vertex or other number of the source
+    edge: np.ndarray  # (w,): corner that is opposite to the edge in the last face of the strip
+    right: np.ndarray  # (w,): ends of the edge, as seen from the source
     left: np.ndarray
-    right_at: np.ndarray
+    right_at: np.ndarray  # (w, 2): their positions in the plane
     left_at: np.ndarray
-    low: np.ndarray
+    low: np.ndarray  # (w, 2): rays that bound what is visible through all edges of the strip
     high: np.ndarray
 
     def __getitem__(self, index: np.ndarray) -> _Windows:
@@ -44,51 +39,50 @@ def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
-def _neighbours(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """For each corner, the corners of other faces opposite the same edge: ``(start (3f + 1,), corners)``.
+def _opposite_corners(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return for each corner the corners of other faces opposite the same edge, as ``start (3 f + 1,)`` and corners.
 
-    The edge opposite corner ``3 f + i`` is shared by two faces inside a surface, by more where it branches.
+    Corner ``i`` of face ``j`` has the number ``3 j + i``. Non-manifold edges have several other faces.
     """
     ends = np.sort(np.stack([faces[:, [1, 2, 0]].ravel(), faces[:, [2, 0, 1]].ravel()], axis=1), axis=1)
     order = np.lexsort((ends[:, 1], ends[:, 0]))
     ends = ends[order]
-    here, there = [], []
+    firsts, seconds = [], []
     for step in range(1, len(ends)):
         same = np.flatnonzero((ends[step:] == ends[:-step]).all(axis=1))
         if len(same) == 0:
             break
-        here += [order[same], order[same + step]]
-        there += [order[same + step], order[same]]
-    if not here:
+        firsts += [order[same], order[same + step]]
+        seconds += [order[same + step], order[same]]
+    if not firsts:
         return np.zeros(len(ends) + 1, dtype=np.int64), np.zeros(0, dtype=np.int64)
-    first, second = np.concatenate(here), np.concatenate(there)
+    first, second = np.concatenate(firsts), np.concatenate(seconds)
     sort = np.argsort(first, kind="stable")
     start = np.searchsorted(first[sort], np.arange(len(ends) + 1))
     return start, second[sort]
 
 
 def _first_windows(vertices: np.ndarray, faces: np.ndarray, corners: np.ndarray) -> _Windows:
-    """The view from each corner's vertex through the opposite edge of its face."""
+    """Return the windows from vertices through the opposite edges of their faces; ``corners``: of the vertices."""
     face, i = np.divmod(corners, 3)
     source, right, left = (faces[face, (i + step) % 3] for step in range(3))
     a, b = vertices[right] - vertices[source], vertices[left] - vertices[source]
-    reach = np.linalg.norm(a, axis=1)
-    ahead = np.divide((a * b).sum(axis=1), reach, out=np.zeros_like(reach), where=reach > 0)
-    aside = np.divide(np.linalg.norm(np.cross(a, b), axis=1), reach, out=np.zeros_like(reach), where=reach > 0)
-    right_at = np.stack([reach, np.zeros_like(reach)], axis=1)
-    left_at = np.stack([ahead, aside], axis=1)
-    seen = aside > 0
-    return _Windows(source, corners, right, left, right_at, left_at, right_at, left_at)[seen]
+    length = np.linalg.norm(a, axis=1)
+    x = np.divide((a * b).sum(axis=1), length, out=np.zeros_like(length), where=length > 0)
+    y = np.divide(np.linalg.norm(np.cross(a, b), axis=1), length, out=np.zeros_like(length), where=length > 0)
+    right_at = np.stack([length, np.zeros_like(length)], axis=1)
+    left_at = np.stack([x, y], axis=1)
+    return _Windows(source, corners, right, left, right_at, left_at, right_at, left_at)[y > 0]
 
 
-def _corners_behind(start: np.ndarray, twins: np.ndarray, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:
-    """The faces behind the windows' edges, by the corner opposite the edge, and the window that each is behind."""
+def _next_faces(start: np.ndarray, opposite: np.ndarray, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:
+    """Return the window of each face behind the windows' edges, and the corner opposite the edge in that face."""
     count = start[windows.edge + 1] - start[windows.edge]
-    return np.repeat(np.arange(len(count)), count), twins[index_ranges(start[windows.edge], count)]
+    return np.repeat(np.arange(len(count)), count), opposite[index_ranges(start[windows.edge], count)]
 
 
-def _unfolded(vertices: np.ndarray, w: _Windows, apex: np.ndarray) -> np.ndarray:
-    """Where the vertices ``apex (w,)`` behind the windows' edges lie in the plane, (w, 2)."""
+def _unfold(vertices: np.ndarray, w: _Windows, apex: np.ndarray) -> np.ndarray:
+    """Return the positions in the plane of the vertices ``apex (w,)`` behind the windows' edges, (w, 2)."""
     edge = w.left_at - w.right_at
     length = np.linalg.norm(edge, axis=1)
     unit = edge / np.where(length > 0, length, 1)[:, None]
@@ -100,17 +94,17 @@ def _unfolded(vertices: np.ndarray, w: _Windows, apex: np.ndarray) -> np.ndarray
     return w.right_at + along[:, None] * unit + beyond[:, None] * outward
 
 
-def _crossed(
-    vertices: np.ndarray, faces: np.ndarray, start: np.ndarray, twins: np.ndarray, windows: _Windows
+def _cross_edges(
+    vertices: np.ndarray, faces: np.ndarray, start: np.ndarray, opposite: np.ndarray, windows: _Windows
 ) -> tuple[_Windows, np.ndarray, np.ndarray, np.ndarray]:
-    """Unfold the faces behind the windows' edges: next windows, and (sources, vertices, distances) in sight."""
-    index, corner = _corners_behind(start, twins, windows)
+    """Unfold the next faces; return the next windows, and source, vertex and distance of each visible vertex."""
+    index, corner = _next_faces(start, opposite, windows)
     w, face = windows[index], corner // 3
     apex = faces[face, corner % 3]
-    at = _unfolded(vertices, w, apex)
+    at = _unfold(vertices, w, apex)
     after_low, before_high = _cross(w.low, at) >= 0, _cross(at, w.high) >= 0
-    sight = after_low & before_high
-    found = w.source[sight], apex[sight], np.linalg.norm(at[sight], axis=1)
+    is_visible = after_low & before_high
+    visible = w.source[is_visible], apex[is_visible], np.linalg.norm(at[is_visible], axis=1)
     # The edge (right, apex) is opposite the corner of ``left`` in the face, and the other way round.
     corners = 3 * face[:, None] + np.arange(3)
     at_left = corners[faces[face] == w.left[:, None]]
@@ -119,7 +113,7 @@ def _crossed(
     low = np.where(after_low[:, None], at, w.low)
     one = _Windows(w.source, at_left, w.right, apex, w.right_at, at, w.low, high)[after_low]
     two = _Windows(w.source, at_right, apex, w.left, at, w.left_at, low, w.high)[before_high]
-    return one + two, *found
+    return one + two, *visible
 
 
 def join_links(links: list[tuple[np.ndarray, np.ndarray, np.ndarray]], n: int) -> csr_array:
@@ -144,37 +138,37 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     """Return the symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
 
     It joins the ends of every edge and, for ``depth`` above 0, every two vertices that a straight line joins across up
-    to ``depth`` edges once the faces on its way are laid flat. Such lines lie on the surface, so no path is shorter
-    than the geodesic, and any that passes few faces between vertices is exact. Shortest paths in the graph of all such
-    lines are exact geodesics (the saddle vertex graph); the short ones come close.
+    to ``depth`` edges once the faces between them are unfolded. Such lines lie on the surface, so no path is shorter
+    than the geodesic. Shortest paths in the graph of all such lines are exact geodesics (the saddle vertex graph). With
+    the short ones alone they are little longer.
 
-    Works on any triangles: boundaries, several components, edges with more than two faces, faces without area, open
-    edges in one place, whose ends are at no distance from each other. A vertex that no face uses is joined to nothing.
-    The points of a cloud are joined to their 12 nearest neighbours, and all to one piece.
+    Any triangles will do: boundaries, several components, edges with more than two faces, faces without area. Welded
+    vertices have distance 0. A vertex that no face uses has no edge. The points of a cloud are joined to their 12
+    nearest neighbours, and all components to one.
 
-    ``depth``: edges that a line may cross: 0 for edges only (5 % longer than geodesics on even meshes), 1 for the
-    diagonals of neighbouring faces too, 4 for an error of 0.3 %. Entries per vertex: 6, 12, 35.
+    ``depth``: edges that a line may cross. With 0, edges only, paths are 5 % too long on even meshes, with 4 0.3 %. 1
+    adds the diagonals of neighbouring faces. Entries per vertex with 0, 1 and 4: 6, 12, 35.
 
     Ying, Wang and He, Saddle vertex graph: a novel solution to the discrete geodesic problem (2013).
     """
     check_count(depth, "depth", 0)
     v, first = mesh.vertices, weld_vertices(mesh)
     f, n = first[mesh.faces], len(v)
-    copies = np.flatnonzero(first != np.arange(n))
-    links = [(copies, first[copies], np.zeros(len(copies)))]
+    welded = np.flatnonzero(first != np.arange(n))
+    links = [(welded, first[welded], np.zeros(len(welded)))]
     if len(f) == 0:
-        places = np.unique(first)
-        a, b, lengths = cloud_edges(v[places])
-        links.append((places[a], places[b], lengths))
+        points = np.unique(first)
+        a, b, lengths = cloud_edges(v[points])
+        links.append((points[a], points[b], lengths))
     else:
         a, b = mesh_edges(f, n)[0].T
         links.append((a, b, np.linalg.norm(v[a] - v[b], axis=1)))
         faces = f[proper_faces(f)]
-        start, twins = _neighbours(faces) if depth else (np.zeros(1), np.zeros(0))
+        start, opposite = _opposite_corners(faces) if depth else (np.zeros(1), np.zeros(0))
         for chunk in blocks(3 * len(faces) if depth else 0, 200_000):  # which bounds the memory
             windows = _first_windows(v, faces, np.arange(chunk.start, chunk.stop))
             for _ in range(depth):
-                windows, *found = _crossed(v, faces, start, twins, windows)
-                one_way = found[0] < found[1]  # the other end sees the same line
-                links.append((found[0][one_way], found[1][one_way], found[2][one_way]))
+                windows, source, vertex, distance = _cross_edges(v, faces, start, opposite, windows)
+                once = source < vertex  # each line is visible from both ends
+                links.append((source[once], vertex[once], distance[once]))
     return join_links(links, n)
