@@ -364,8 +364,8 @@ MUTANTS = tuple(
             "test_symmetries -k mistaken",
         ),
         (
-            "gathered[lost] = np.hstack([mesh.vertices[lost] + moved,",
-            "gathered[lost] = np.hstack([moved,",
+            "sums[free] = np.hstack([mesh.vertices[free] + shifts,",
+            "sums[free] = np.hstack([shifts,",
             "test_nonrigid -k beside",
         ),
         ("return forth or back or DeformationEnergy(", "return DeformationEnergy(", "test_extremities -k apart"),
@@ -454,27 +454,27 @@ MUTANTS = tuple(
         ),
         # non-rigid fit, and what it is kept by
         (
-            "kept = harmed <= _MAX_WORSENED_AREA or healed >= 0.5 * harmed",
-            "kept = harmed <= _MAX_WORSENED_AREA",
+            "accepted = worsened <= _MAX_WORSENED_AREA or improved >= 0.5 * worsened",
+            "accepted = worsened <= _MAX_WORSENED_AREA",
             "test_registration_accepted",
         ),
         (
-            "held = np.clip(2 * (trust - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)",
-            "held = np.zeros(len(trust))",
+            "held = np.clip(2 * (confidence - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)",
+            "held = np.zeros(len(confidence))",
             "test_registration_accepted",
         ),
         (
-            "shares @ missing / np.maximum(held, 1e-300)[:, None]",
-            "shares @ -missing / np.maximum(held, 1e-300)[:, None]",
+            "weights @ offsets / np.maximum(total, 1e-300)[:, None]",
+            "weights @ -offsets / np.maximum(total, 1e-300)[:, None]",
             "test_registration_accepted",
         ),
         (
-            "(1 + (missing**2).sum(axis=1) / self.fading**2) ** 2",
-            "(1 + 0 * (missing**2).sum(axis=1) / self.fading**2) ** 2",
+            "(1 + (offsets**2).sum(axis=1) / self.fading**2) ** 2",
+            "(1 + 0 * (offsets**2).sum(axis=1) / self.fading**2) ** 2",
             "test_registration_accepted",
         ),
         (
-            "even(rotations(pair.body.energy, x))",
+            "smooth(rotations(pair.body.energy, x))",
             "rotations(pair.body.energy, x)",
             "test_registration_accepted test_nonrigid",
         ),
@@ -622,18 +622,18 @@ MUTANTS = tuple(
         ),
         # unlike shapes, bent and matched in turn
         (
-            "found = refine(found.functional_map, *on.bases, guide=combine_guidance([(1.0, here), (WEIGHT, lie)]))",
-            "found = refine(found.functional_map, *on.bases, guide=here)",
+            "refined = refine(refined.functional_map, *pair.bases, guide=both)",
+            "refined = refine(refined.functional_map, *pair.bases, guide=guidance)",
             ALTERNATE,
         ),
         (
-            "size = np.sqrt(2 * ((target.vertices - middle) ** 2)",
-            "size = np.sqrt(((target.vertices - middle) ** 2)",
+            "size = np.sqrt(2 * ((target.vertices - centre) ** 2)",
+            "size = np.sqrt(((target.vertices - centre) ** 2)",
             ALTERNATE,
         ),
         (
-            "found = np.linalg.solve(weighted @ phi + 1e-3",
-            "found = np.linalg.solve(weighted @ phi + 1.0",
+            "coefficients = np.linalg.solve(weighted @ phi + 1e-3",
+            "coefficients = np.linalg.solve(weighted @ phi + 1.0",
             ALTERNATE,
         ),
         (
@@ -753,8 +753,8 @@ MUTANTS = tuple(
             "registration/alternating_registration",
         ),
         (
-            "(samples.descriptors - _descriptors(other, near)) ** 2",
-            "(samples.descriptors - _descriptors(other, near))",
+            "(samples.descriptors - _descriptors(other, nearest_vertices)) ** 2",
+            "(samples.descriptors - _descriptors(other, nearest_vertices))",
             "test_registration_evidence -k squared",
         ),
         (
@@ -763,7 +763,7 @@ MUTANTS = tuple(
             "test_registration_evidence -k without_landmarks",
         ),
         (
-            "turns.transpose(0, 2, 1) @ edge_covariances(energy, x)",
+            "R.transpose(0, 2, 1) @ edge_covariances(energy, x)",
             "edge_covariances(energy, x)",
             "test_local_scaling -k exactly",
         ),
@@ -777,7 +777,7 @@ MUTANTS = tuple(
             "return bool(np.max(errors) > 0.04)",
             "test_registration_accepted -k less_exact",
         ),
-        ("return turns @ _clip_eigenvalues(", "return _clip_eigenvalues(", "test_local_scaling -k exactly"),
+        ("return R @ _clip_eigenvalues(", "return _clip_eigenvalues(", "test_local_scaling -k exactly"),
         (
             "diffuse = energy.factorize(area, areas)",
             "diffuse = energy.factorize(0.0, areas)",
@@ -789,7 +789,11 @@ MUTANTS = tuple(
             "test_contact_projection -k lie_on_each_other",
         ),
         ("NORMALS * normals, _REST_WEIGHT", "0 * normals, _REST_WEIGHT", "test_contact_projection -k nearly_touch"),
-        ("cheaper = _cost(likely, there[faces], wanted) <", "cheaper = 0 <=", "test_contact_projection -k thin"),
+        (
+            "use_other = _costs(other, features_s[faces], features_t) <",
+            "use_other = 0 <=",
+            "test_contact_projection -k thin",
+        ),
         (
             "return score - numbers.w_torn * (torn_area or 0.0)",
             "return score",
@@ -953,20 +957,24 @@ MUTANTS = tuple(
             "test_landmark_evidence -k mended",
         ),
         (
-            "query(shape.mesh.vertices[at])[1]",
-            "query(self.source.mesh.vertices[at])[1]",
+            "query(shape.mesh.vertices[vertices])[1]",
+            "query(self.source.mesh.vertices[vertices])[1]",
             "test_landmark_evidence -k nearest_to_them",
         ),
         ("pair.swapped(), landmarks[:, ::-1]", "pair.swapped(), landmarks", "test_landmark_evidence -k mended"),
-        ("target_to_source, marks=marks)", "target_to_source)", "test_landmark_evidence -k between_refinements"),
+        (
+            "target_to_source, landmarks=landmarks)",
+            "target_to_source)",
+            "test_landmark_evidence -k between_refinements",
+        ),
         (
             "if self.local_scaling else LANDMARK_PULL",
             "if False else LANDMARK_PULL",
             "test_landmark_evidence -k far_off",
         ),
         (
-            "(missing**2).sum(axis=1) / self.fading**2) ** 2",
-            "(missing**2).sum(axis=1) / self.fading**2)",
+            "(offsets**2).sum(axis=1) / self.fading**2) ** 2",
+            "(offsets**2).sum(axis=1) / self.fading**2)",
             "test_landmark_evidence -k from_afar",
         ),
         ("self.weight * stiffness * self.discs", "self.weight * self.discs", "test_landmark_evidence -k from_afar"),

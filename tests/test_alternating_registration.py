@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 
 import kfmaps
 from kfmaps._arrays import NotConverged
+from kfmaps._threads import limit_threads
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
@@ -50,6 +52,13 @@ from kfmaps.registration.evidence import FINE_VERTICES, coarse_copy
 GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.evidence")
 
 NO_LANDMARKS = np.zeros((0, 2), dtype=np.int64)
+
+
+@pytest.fixture(autouse=True)
+def one_thread() -> Iterator[None]:
+    """Work on one thread, so that calls that a test records come in order."""
+    with limit_threads(1):
+        yield
 
 
 @pytest.fixture(autouse=True)
@@ -437,17 +446,17 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
     of = ProxyCache.of(source, target, on)
     ranked = ranking.ranking([bad], on, of)
-    found = rerank_near_duplicates(ranked, [bad, good], on, of, 1)
+    found = rerank_near_duplicates(ranked, [bad, good], on, of)
     assert [c.name for c in found] == ["truth", "torn"]
     assert found[1] is ranked[0]
     assert found[0].deformation_energy is not None
     assert ranked[0].deformation_energy is not None
     assert found[0].deformation_energy < ranked[0].deformation_energy
-    assert rerank_near_duplicates(ranked, [bad], on, of, 1) == ranked
+    assert rerank_near_duplicates(ranked, [bad], on, of) == ranked
     # Not where it is too far behind before that.
     far = replace(good, quality=replace(good.quality, distortion=good.quality.distortion + 0.2))
-    assert {c.name for c in rerank_near_duplicates(ranked, [bad, far], on, of, 1)} == {"truth", "torn"}
-    assert rerank_near_duplicates(ranked, [bad, far], on, of, 1, behind=1.0) == ranked
+    assert {c.name for c in rerank_near_duplicates(ranked, [bad, far], on, of)} == {"truth", "torn"}
+    assert rerank_near_duplicates(ranked, [bad, far], on, of, behind=1.0) == ranked
 
 
 def test_a_map_deforms_too_much_or_not():

@@ -12,6 +12,7 @@ import pytest
 
 import kfmaps
 from conftest import blob
+from kfmaps._threads import limit_threads
 from kfmaps.fmap.convert import to_functional
 from kfmaps.geometry.mesh import MIRROR, unit_area
 from kfmaps.geometry.sampling import stratified_vertices
@@ -51,6 +52,13 @@ GUARDS = (
 )
 
 """Of a single map, which SHOT has led."""
+
+
+@pytest.fixture(autouse=True)
+def one_thread() -> Iterator[None]:
+    """Work on one thread, so that calls that a test records come in order."""
+    with limit_threads(1):
+        yield
 
 
 def on_a_line(*places: float) -> tuple[np.ndarray, np.ndarray]:

@@ -14,7 +14,7 @@ from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.registration.accept import _MAX_GAP, _MAX_WORSENED_AREA, RegisteredMap, register_map
 from kfmaps.registration.deformable import deformable_mesh
-from kfmaps.registration.nonrigid_icp import NonRigid, Registration, _evened, mesh_pair
+from kfmaps.registration.nonrigid_icp import NonRigid, Registration, _rotation_smoothing, mesh_pair
 from kfmaps.registration.torn_patches import _MAX_AREA, rejoin_torn_patches
 
 GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.arap", "kfmaps.registration")
@@ -154,15 +154,15 @@ def test_rotations_become_even_and_constant_ones_stay(pair: datasets.ExamplePair
     two = mesh_pair(deformable_mesh(unit_area(pair.source)), unit_area(pair.target))
     n = len(pair.source.vertices)
     one = np.broadcast_to(nearest_rotations(rng.normal(size=(1, 3, 3))), (n, 3, 3))
-    np.testing.assert_allclose(_evened(two, 1e-3)(one), one, atol=1e-8)
+    np.testing.assert_allclose(_rotation_smoothing(two, 1e-3)(one), one, atol=1e-8)
     rough = nearest_rotations(one + 0.5 * rng.normal(size=(n, 3, 3)))
     differences = [
         float(np.sum(turns.reshape(n, 9) * (two.body.energy.laplacian @ turns.reshape(n, 9))))
-        for turns in (_evened(two, area)(rough) for area in (0.0, 1e-3, 1e-2))
+        for turns in (_rotation_smoothing(two, area)(rough) for area in (0.0, 1e-3, 1e-2))
     ]
     assert differences[1] < 0.1 * differences[0]
     assert differences[2] < 0.5 * differences[1]
-    np.testing.assert_array_equal(_evened(two, 0.0)(rough), rough)
+    np.testing.assert_array_equal(_rotation_smoothing(two, 0.0)(rough), rough)
 
 
 def test_the_fit_bends_more_evenly(pair: datasets.ExamplePair) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 
 import kfmaps
 from kfmaps._arrays import NotConverged
+from kfmaps._threads import limit_threads
 from kfmaps.datasets import ExamplePair, posed_pair
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
@@ -41,6 +43,13 @@ GUARDS = (
     "kfmaps.registration.alternating_registration",
     "kfmaps.registration.evidence",
 )
+
+
+@pytest.fixture(autouse=True)
+def one_thread() -> Iterator[None]:
+    """Work on one thread, so that calls that a test records come in order."""
+    with limit_threads(1):
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +118,7 @@ def test_both_directions_count_unless_one_falls_apart(creatures, at_rest, monkey
     source, target, truth = creatures
     C = functional(truth, source, target)
     told: dict[bool, float | None] = {True: 0.1, False: 0.3}
-    monkeypatch.setattr(looks, "_bent_shot_error", lambda way, *_rest: told[way is at_rest.forth])
+    monkeypatch.setattr(looks, "_registered_shot_error", lambda way, *_rest: told[way is at_rest.forth])
     assert registered_shot_error(C, at_rest) == pytest.approx(0.2)
     told[False] = None
     assert registered_shot_error(C, at_rest) == pytest.approx(0.1)

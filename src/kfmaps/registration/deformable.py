@@ -1,4 +1,4 @@
-"""A surface that is bent, and one on which closest points are sought: what whole shapes and parts are bent with."""
+"""Deformable meshes, closest-point queries and data terms, for registrations of whole shapes and parts."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from kfmaps.geometry.mesh import Mesh, unit_rows, vertex_areas, vertex_normals
 
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
-_MIN_COSINE = 0.3  # cosine between two normals from which a pair of closest points counts; fully at 1
+_MIN_COSINE = 0.3  # cosine of the normals of two closest points from which the pair counts; fully at 1
 _ALONG = 0.03  # weight of squared distances along the surface, against 1 along its normal
 LANDMARK_PULL = (10.0, 0.045)
-"""Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades: one that is 2 %
-of √area off does no harm."""
+"""Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades. Landmarks that
+are 2 % of √area off do no harm."""
 
 
 @dataclass(frozen=True, eq=False)
 class ClosestPointQuery:
-    """A surface in which closest points with like normals are sought."""
+    """A search for the closest points of a surface with similar normals; made by :func:`closest_point_query`."""
 
     vertices: np.ndarray
     faces: np.ndarray
@@ -36,25 +36,21 @@ class ClosestPointQuery:
     tree: KDTree
 
     def __call__(self, points: np.ndarray, normals: np.ndarray) -> tuple[ClosestPoints, np.ndarray, np.ndarray]:
-        """Find the closest points of the surface with like normals.
+        """Return the closest points, their normals (q, 3), and how well these agree with those given, 0 to 1, (q,).
 
-        ``points (q, 3)`` and ``normals (q, 3)``. Returns ``found``; ``normals (q, 3)``: of the surface there;
-        ``agreement (q,)``: of the normals, 0 to 1.
+        ``points (q, 3)`` and ``normals (q, 3)``: the queries.
         """
-        near = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
-        found = closest_among(points, self.vertices, self.faces, *self.around.around(near))
-        there = unit_rows(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
-        cosine = np.einsum("qi,qi->q", there, normals)
-        return found, there, np.clip((cosine - _MIN_COSINE) / (1 - _MIN_COSINE), 0.0, 1.0)
+        nearest = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
+        closest = closest_among(points, self.vertices, self.faces, *self.around.around(nearest))
+        closest_normals = unit_rows(np.einsum("qi,qij->qj", closest.weights, self.normals[self.faces[closest.faces]]))
+        cosine = np.einsum("qi,qi->q", closest_normals, normals)
+        return closest, closest_normals, np.clip((cosine - _MIN_COSINE) / (1 - _MIN_COSINE), 0.0, 1.0)
 
 
 def closest_point_query(
     mesh: Mesh, normals: np.ndarray | None = None, around: VertexRings | None = None
 ) -> ClosestPointQuery:
-    """Return a mesh ready to search for closest points with like normals.
-
-    ``normals (n, 3)``: of its vertices, where they are known; ``around``: its rings, where they are known.
-    """
+    """Return the query of a mesh; ``normals (n, 3)`` and ``around``: its normals and rings, if they are known."""
     normals = vertex_normals(mesh) if normals is None else normals
     around = vertex_rings(mesh.faces, len(mesh.vertices)) if around is None else around
     return ClosestPointQuery(
@@ -64,62 +60,58 @@ def closest_point_query(
 
 @dataclass(frozen=True, eq=False)
 class DataTerm:
-    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to 0.03 across ``normals``.
+    """``Σ_q weights_q (r_qᵀ P_q r_q)`` with residuals ``r = rows x − places`` and ``P = 0.03 I + 0.97 n nᵀ``."""
 
-    ``rows`` is sparse ``(q, n_s)``, ``None`` for the vertices themselves; without normals ``P`` is the identity.
-    """
-
-    weights: np.ndarray
-    places: np.ndarray
-    rows: SparseMatrix = None
-    normals: np.ndarray | None = None
+    weights: np.ndarray  # (q,)
+    places: np.ndarray  # (q, 3)
+    rows: SparseMatrix = None  # (q, n_s): ``None`` is the identity
+    normals: np.ndarray | None = None  # (q, 3): ``n``; without them ``P`` is the identity
 
     def at(self, x: np.ndarray) -> np.ndarray:
         """Return the matrix of the term times ``x (n_s, 3)``."""
-        inside = self._shortened(x if self.rows is None else self.rows @ x)
-        return inside if self.rows is None else self._columns @ inside
+        weighted = self._weighted(x if self.rows is None else self.rows @ x)
+        return weighted if self.rows is None else self._columns @ weighted
 
     def right(self) -> np.ndarray:
         """Return the right-hand side, (n_s, 3)."""
-        inside = self._shortened(self.places)
-        return inside if self.rows is None else self._columns @ inside
+        weighted = self._weighted(self.places)
+        return weighted if self.rows is None else self._columns @ weighted
 
     @cached_property
     def _columns(self) -> SparseMatrix:
         return self.rows.T
 
-    def _shortened(self, z: np.ndarray) -> np.ndarray:
+    def _weighted(self, z: np.ndarray) -> np.ndarray:
+        """Return ``weights P z`` of ``z (q, 3)``."""
         if self.normals is None:
             return self.weights[:, None] * z
-        along = np.einsum("qi,qi->q", self.normals, z)
-        return self.weights[:, None] * (_ALONG * z + ((1 - _ALONG) * along)[:, None] * self.normals)
+        normal_parts = np.einsum("qi,qi->q", self.normals, z)
+        return self.weights[:, None] * (_ALONG * z + ((1 - _ALONG) * normal_parts)[:, None] * self.normals)
 
 
 @dataclass(frozen=True, eq=False)
 class DeformableMesh:
-    """A surface at rest, and what stays the same while it is bent; made by :func:`deformable_mesh`."""
+    """A mesh at rest with what its deformations share; made by :func:`deformable_mesh`."""
 
     mesh: Mesh
     energy: ArapEnergy
     areas: np.ndarray  # (n,): of the vertices
     around: VertexRings
-    # What :meth:`solver` has made, to be found again; ``None`` keeps nothing, since the factors of a large mesh are
-    # large.
-    solvers: dict[tuple[float, float], Solve] | None = None
+    solvers: dict[tuple[float, float], Solve] | None = None  # cache of :meth:`solver`; ``None``: none, to save memory
 
     def solver(self, stiffness: float, data: float) -> Solve:
-        """Return what solves with ``stiffness L + data A``: a preconditioner, factorised once for a level."""
-        kept, key = self.solvers, (stiffness, data)
-        if kept is not None and key in kept:
-            return kept[key]
+        """Return the function that solves with ``stiffness L + data A``, the preconditioner of a level."""
+        cache, key = self.solvers, (stiffness, data)
+        if cache is not None and key in cache:
+            return cache[key]
         solve = self.energy.factorize(stiffness, data * self.areas)
-        if kept is not None:
-            kept[key] = solve
+        if cache is not None:
+            cache[key] = solve
         return solve
 
 
 def deformable_mesh(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None = None) -> DeformableMesh:
-    """Return ``mesh`` as a surface at rest; a dictionary of ``solvers`` keeps their factors."""
+    """Return ``mesh`` prepared for deformations; ``solvers``: an empty dictionary caches its factors."""
     return DeformableMesh(
         mesh, build_arap(mesh), vertex_areas(mesh), vertex_rings(mesh.faces, len(mesh.vertices)), solvers
     )
@@ -128,34 +120,34 @@ def deformable_mesh(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None
 def initial_deformation(
     body: DeformableMesh, points: np.ndarray, places: np.ndarray, normals: np.ndarray, weights: np.ndarray
 ) -> np.ndarray:
-    """Return where the vertices begin, (n, 3): at given places, or where the surroundings go if those fold it.
+    """Return the initial vertices (n, 3) of a registration, at given positions except where these fold the surface.
 
-    Each vertex goes to the weighted mean of the places that are its own, and the vertices between them smoothly. Where
-    the normals of that shape disagree with those given the placing is folded or twisted: there the vertices do not
-    count, and rotations are carried over from the surroundings by diffusion.
+    Each vertex goes to the weighted mean of its positions, those between smoothly. Where the normals of that shape
+    disagree with the given ones, the positions are folded or twisted. There they count less, and rotations are diffused
+    from the surroundings.
 
-    ``points (q,)``: vertices that have places; ``places (q, 3)`` and ``normals (q, 3)``; ``weights (q,)``.
+    ``points (q,)``: vertices, repeated as need be; ``places (q, 3)`` and ``normals (q, 3)``: for them; ``weights
+    (q,)``.
     """
     n, energy = len(body.areas), body.energy
-    rows = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))
-    gathered = rows.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
-    share = rows.T @ weights
-    # The places of a vertex pull as one with their sum of weights does at their mean.
-    own, mean = share.copy(), gathered[:, :3] / np.where(share > 0, share, 1.0)[:, None]
-    _take_along(body.mesh, share, gathered)
-    smooth = energy.factorize(1e-4, share)(gathered)
-    x, wanted = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
-    initial_stiffness = 1e-3  # stiffness of the first shape, which follows the map
+    selection = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))
+    sums = selection.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
+    total = selection.T @ weights
+    # All positions of a vertex pull like their mean with the sum of their weights.
+    data_weights, means = total.copy(), sums[:, :3] / np.where(total > 0, total, 1.0)[:, None]
+    _move_components_along(body.mesh, total, sums)
+    smooth = energy.factorize(1e-4, total)(sums)
+    x, smooth_normals = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
+    initial_stiffness = 1e-3
     solve = body.solver(initial_stiffness, 1.0)
     for round in range(3):
-        agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), wanted)
+        agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), smooth_normals)
         trust = np.clip(agreement, 0.0, 1.0)
-        held = body.areas * (trust + 1e-3)
-        turns = rotations(energy, x).reshape(n, 9)
-        diffusion = energy.factorize(2.5e-3 * 0.5**round, held)
-        turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
-        terms = [DataTerm(trust * own, mean)]
-        x = descend(energy, initial_stiffness, solve, terms, x, turns, 8)
+        mass = body.areas * (trust + 1e-3)
+        diffuse = energy.factorize(2.5e-3 * 0.5**round, mass)
+        R = nearest_rotations(diffuse(mass[:, None] * rotations(energy, x).reshape(n, 9)).reshape(n, 3, 3))
+        terms = [DataTerm(trust * data_weights, means)]
+        x = descend(energy, initial_stiffness, solve, terms, x, R, 8)
         x = descend(energy, initial_stiffness, solve, terms, x, rotations(energy, x), 8)
     return x
 
@@ -166,35 +158,33 @@ def descend(
     solve: Callable[[np.ndarray], np.ndarray],
     terms: list[DataTerm],
     x: np.ndarray,
-    turns: np.ndarray,
+    R: np.ndarray,
     steps: int = 3,
 ) -> np.ndarray:
-    """Return ``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
+    """Return ``x (n, 3)`` after a few steps of conjugate gradients on the energy for fixed transforms and terms.
 
-    Every step lowers that energy, so that none needs to be exact.
-
-    ``stiffness``: its weight, in units of area; ``solve``: the preconditioner; ``x (n, 3)``; ``turns (n, 3, 3)``:
-    matrices that turn the rest shape of each vertex's surroundings.
+    The energy is ``stiffness`` (in units of area) times the as-rigid-as-possible energy, with the transforms ``R (n, 3,
+    3)`` of the vertices' surroundings, plus the terms. ``solve``: the preconditioner.
     """
 
     def apply(z: np.ndarray) -> np.ndarray:
         return stiffness * (energy.laplacian @ z) + sum(term.at(z) for term in terms)
 
-    residual = stiffness * arap_rhs(energy, turns) + sum(term.right() for term in terms) - apply(x)
-    direction = towards = solve(residual)
-    size = float(np.sum(residual * towards))
+    r = stiffness * arap_rhs(energy, R) + sum(term.right() for term in terms) - apply(x)
+    p = z = solve(r)
+    rz = float(np.sum(r * z))
     for step in range(steps):
-        if not size > 0:
+        if not rz > 0:
             break
-        image = apply(direction)
-        length = size / float(np.sum(direction * image))
-        x = x + length * direction
+        q = apply(p)
+        alpha = rz / float(np.sum(p * q))
+        x = x + alpha * p
         if step == steps - 1:
             break
-        residual = residual - length * image
-        towards = solve(residual)
-        before, size = size, float(np.sum(residual * towards))
-        direction = towards + size / before * direction
+        r = r - alpha * q
+        z = solve(r)
+        previous, rz = rz, float(np.sum(r * z))
+        p = z + rz / previous * p
     return x
 
 
@@ -205,21 +195,21 @@ def descend_levels(
     steps: int,
     data: float,
     terms: Callable[[np.ndarray, float], list[DataTerm]],
-    turns: Callable[[np.ndarray], np.ndarray],
+    transforms: Callable[[np.ndarray], np.ndarray],
     progress: Callable[[float], None],
 ) -> np.ndarray:
     """Return the deformed vertices (n, 3) after non-rigid ICP, each level less stiff than the one before.
 
-    ``x (n, 3)``: where the vertices begin; ``levels``: stiffness of each level, in units of area; ``steps``: searches
-    for closest points at each level; ``data``: weight of the data terms beside that stiffness in the preconditioner;
-    ``terms``: data terms at ``x`` and a stiffness; ``turns``: matrices (n, 3, 3) that turn the rest shape of each
-    vertex's surroundings at ``x``; ``progress``: told how much is done, from 0 to 1.
+    ``x (n, 3)``: initial vertices; ``levels``: stiffness of each level, in units of area; ``steps``: searches for
+    closest points at each level; ``data``: weight of the data terms beside that stiffness in the preconditioner;
+    ``terms``: data terms at ``x`` and a stiffness; ``transforms``: of the vertices' surroundings (n, 3, 3) at ``x``;
+    ``progress``: called with how much is done, from 0 to 1.
     """
     for i, stiffness in enumerate(levels):
         solve = body.solver(stiffness, data)
         for step in range(steps):
-            found = terms(x, stiffness)
-            x = descend(body.energy, stiffness, solve, found, x, turns(x))
+            data_terms = terms(x, stiffness)
+            x = descend(body.energy, stiffness, solve, data_terms, x, transforms(x))
             progress((i * steps + step + 1) / (len(levels) * steps))
     return x
 
@@ -229,44 +219,43 @@ class LandmarkPull:
     """Landmarks that pull a surface softly; made by :func:`landmark_pull`."""
 
     vertices: np.ndarray  # (l,): of the surface
-    places: np.ndarray  # (l, 3): where these belong
-    discs: np.ndarray  # (n, l): how much of each vertex's area belongs to each landmark; columns have sum 1
+    places: np.ndarray  # (l, 3): their targets
+    discs: np.ndarray  # (n, l): a smooth disc around each landmark, integrated at the vertices, with sum 1
     weight: float  # over the stiffness of a level
     fading: float  # distance from which the pull fades
 
     def terms(self, x: np.ndarray, stiffness: float) -> list[DataTerm]:
-        """Return one term or none: each landmark takes its disc along, those far off with less weight."""
+        """Return a term, or none without landmarks, that moves discs to their targets, far ones with less weight."""
         if len(self.vertices) == 0:
             return []
-        missing = self.places - x[self.vertices]
-        shares = self.weight * stiffness * self.discs / (1 + (missing**2).sum(axis=1) / self.fading**2) ** 2
-        held = shares.sum(axis=1)
-        return [DataTerm(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])]
+        offsets = self.places - x[self.vertices]
+        weights = self.weight * stiffness * self.discs / (1 + (offsets**2).sum(axis=1) / self.fading**2) ** 2
+        total = weights.sum(axis=1)
+        return [DataTerm(total, x + weights @ offsets / np.maximum(total, 1e-300)[:, None])]
 
 
 def landmark_pull(
     body: DeformableMesh, vertices: np.ndarray, places: np.ndarray, pull: tuple[float, float] = LANDMARK_PULL
 ) -> LandmarkPull:
-    """Return how landmarks pull a surface: its ``vertices (l,)`` belong at ``places (l, 3)``."""
+    """Return the pull of landmarks, ``vertices (l,)`` of a surface, towards ``places (l, 3)``."""
     points = np.zeros((len(body.areas), len(vertices)))
     points[vertices, np.arange(len(vertices))] = 1.0
     discs = body.areas[:, None] * body.solver(1e-3, 1.0)(points).reshape(points.shape) if len(vertices) else points
     return LandmarkPull(vertices, places, discs, *pull)
 
 
-def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:
-    """Let a component without any place go with the nearest vertex that has one; fills in ``gathered (n, 6)``.
+def _move_components_along(mesh: Mesh, total: np.ndarray, sums: np.ndarray) -> None:
+    """Move components without positions along with the nearest vertex that has one, by filling in the arguments.
 
-    Nothing would hold it, and with its ``share (n,)`` of 0 the linear system would be singular.
+    Nothing else determines them. ``total (n,)`` and ``sums (n, 6)``: weights, and weighted positions and normals.
     """
     n = len(mesh.vertices)
-    ends = mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel()
-    label = component_labels(n, *ends)[1]
-    lost = np.flatnonzero((np.bincount(label, share) == 0)[label])
-    held = np.flatnonzero(share > 0)
-    if len(lost) == 0 or len(held) == 0:
+    label = component_labels(n, mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel())[1]
+    free = np.flatnonzero((np.bincount(label, total) == 0)[label])
+    placed = np.flatnonzero(total > 0)
+    if len(free) == 0 or len(placed) == 0:
         return
-    beside = held[KDTree(mesh.vertices[held]).query(mesh.vertices[lost])[1]]
-    moved = gathered[beside, :3] / share[beside, None] - mesh.vertices[beside]
-    gathered[lost] = np.hstack([mesh.vertices[lost] + moved, vertex_normals(mesh)[lost]])
-    share[lost] = 1.0
+    nearest = placed[KDTree(mesh.vertices[placed]).query(mesh.vertices[free])[1]]
+    shifts = sums[nearest, :3] / total[nearest, None] - mesh.vertices[nearest]
+    sums[free] = np.hstack([mesh.vertices[free] + shifts, vertex_normals(mesh)[free]])
+    total[free] = 1.0

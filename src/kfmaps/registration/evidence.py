@@ -1,10 +1,10 @@
-"""What a map shows once coarse copies of both shapes are registered as it says: evidence that is not intrinsic.
+"""Extrinsic evidence about a map: registrations of coarse proxies of both shapes that begin with it.
 
-A map that swaps front and back together with left and right keeps all distances and orientation. But the body that
-follows it has to be turned inside out at its feet, hands and face, and has heels where the target has toes. So each
-copy is bent onto the other as rigidly as possible (:mod:`kfmaps.registration.nonrigid_icp`). The energy that is left
-and SHOT of the bent copy are compared between maps. SHOT of a large radius depends on the pose, so the body is bent
-into the other's pose first; it is bent stiffly, so that its feet stay what they are.
+A map that swaps front and back together with left and right keeps all distances and orientation. But a body that
+follows it is turned inside out at its feet, hands and face, and has heels where the target has toes. So each proxy is
+registered onto the other as rigidly as possible (:mod:`kfmaps.registration.nonrigid_icp`), and maps are compared by the
+remaining energy and by SHOT after the registration. SHOT of a large radius depends on the pose, which the registration
+removes. It is stiff, so that details such as feet are kept.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid
 from kfmaps.shape import Shape
 
 FINE_VERTICES = 3000
-"""Vertices of a coarse copy for a second look where two maps are close."""
+"""Vertices of the finer proxies on which two maps of similar scores are compared."""
 _QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
-"""The fits of all candidates, and of those that are close."""
+"""The registrations of all candidates, and of those with similar scores."""
 _MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
-"""Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
-_MIN_FACES = 12  # faces below which there is nothing to bend
+"""Energies are clipped to these: below, two meshes of one shape differ; above, nothing is left of the shape."""
+_MIN_FACES = 12  # faces that a proxy must have
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,81 +45,75 @@ class SurfaceSamples:
 
 @dataclass(frozen=True)
 class DeformationEnergy:
-    """How far both shapes must bend to follow a map; made by :func:`deform`."""
+    """How much both shapes are deformed to follow a map; made by :func:`deform`."""
 
-    # As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion; of one where the
-    # other copy falls apart, 10 where both do.
-    energy: float
-    # Mean logarithm of the local energy per area: what is bent a little everywhere, as limbs that are turned front to
-    # back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
+    energy: float  # as-rigid-as-possible energy per area, geometric mean of both directions: 0 for a rigid motion
+    # Mean logarithm of the local energy per area. It shows small deformations everywhere, as of limbs that are turned
+    # front to back, rather than the few places with most of the energy, where two bodies differ most.
     strain: float
 
 
 def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
-    """Return a coarse copy of a shape; ``None`` where it has no faces, or too few.
-
-    ``vertices``: of the copy.
-    """
+    """Return a coarse proxy of a shape with about so many ``vertices``; ``None`` where it has too few faces."""
     if len(shape.mesh.faces) < _MIN_FACES:
         return None
     n = len(shape.mesh.vertices)
-    copy = coarse_proxy(shape.mesh, stratified_vertices(shape.basis, vertices, 0) if n > vertices else np.arange(n))
-    return None if len(copy.mesh.faces) < _MIN_FACES else copy
+    proxy = coarse_proxy(shape.mesh, stratified_vertices(shape.basis, vertices, 0) if n > vertices else np.arange(n))
+    return None if len(proxy.mesh.faces) < _MIN_FACES else proxy
 
 
 def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> DeformationEnergy:
-    """Return how far each copy must bend to follow a functional map ``C (k_t, k_s)``."""
-    forth, back = (_deform_one(fit, *way) for way in _point_maps(C, pair))
+    """Return how much the proxies are deformed to follow a functional map ``C (k_t, k_s)``."""
+    forth, back = (_deform_one(fit, *direction) for direction in _point_maps(C, pair))
     if forth is None or back is None:
-        # That a copy falls apart says nothing of the map.
+        # A proxy that falls apart says nothing about the map.
         return forth or back or DeformationEnergy(_MAX_ENERGY, math.log(_MAX_ENERGY))
     return DeformationEnergy(math.sqrt(forth.energy * back.energy), (forth.strain + back.strain) / 2)
 
 
 def registered_shot_error(C: np.ndarray, pair: ProxyPair) -> float | None:
-    """Return the mean squared difference of SHOT, 0 to 2, of each copy bent onto the other as ``C (k_t, k_s)`` says.
+    """Return the mean squared difference of SHOT, 0 to 2, of proxies registered by a functional map ``C (k_t, k_s)``.
 
-    It is the mean of both directions, or that of one where the other copy falls apart; ``None`` where both do.
+    It is the mean of both directions, without one where the proxy falls apart; ``None`` where both do.
     """
-    errors = [_bent_shot_error(*way) for way in _point_maps(C, pair)]
-    known = [error for error in errors if error is not None]
-    return sum(known) / len(known) if known else None
+    errors = [_registered_shot_error(*direction) for direction in _point_maps(C, pair)]
+    finite = [error for error in errors if error is not None]
+    return sum(finite) / len(finite) if finite else None
 
 
 def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndarray], tuple[MeshPair, np.ndarray]]:
-    """Each copy and the other, with the vertex of the first for each of the second that ``C (k_t, k_s)`` says."""
+    """Return the pair of meshes and the point map of ``C (k_t, k_s)`` between the proxies, for both directions."""
     k_t, k_s = C.shape
     a, b = pair.copies
     images = to_numpy(pair.source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(pair.target.basis.functions)[b.vertices, :k_t])
-    forth, back = (
-        way.once((k_t, C.tobytes()), lambda places=places: nearest(*places))
-        for way, places in ((pair.forth, (rows, images)), (pair.back, (images, rows)))
-    )
+    key = (k_t, C.tobytes())
+    forth = pair.forth.once(key, lambda: nearest(rows, images))
+    back = pair.back.once(key, lambda: nearest(images, rows))
     return (pair.forth, forth), (pair.back, back)
 
 
-def _bent(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> np.ndarray:
-    """The first surface's vertices bent onto the second; candidates with the same map share the result."""
+def _registered(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> np.ndarray:
+    """Return the registered vertices of the source; candidates with the same map share them."""
     return pair.once((fit, points.tobytes()), lambda: fit.bent(pair, points)[0])
 
 
 def _deform_one(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> DeformationEnergy | None:
     try:
-        x = _bent(fit, pair, points)
+        x = _registered(fit, pair, points)
     except NotConverged:
         return None
     energy, areas = pair.body.energy, np.maximum(pair.body.areas, 1e-12)
-    # Local energies below 1e-3 count as none.
+    # Local energies are at least 1e-3.
     local = np.log(np.maximum(arap_energy_per_vertex(energy, x) / areas, 1e-3))
     total = arap_energy(energy, x) / float(pair.body.areas.sum())
     strain = max(float(np.average(local, weights=areas)), math.log(_MIN_ENERGY))
     return DeformationEnergy(min(max(total, _MIN_ENERGY), _MAX_ENERGY), strain)
 
 
-def _bent_shot_error(pair: MeshPair, points: np.ndarray) -> float | None:
+def _registered_shot_error(pair: MeshPair, points: np.ndarray) -> float | None:
     try:
-        x = _bent(FIT, pair, points)
+        x = _registered(FIT, pair, points)
     except NotConverged:
         return None
     samples = pair.once("SHOT", lambda: _surface_samples(pair.target))
@@ -127,16 +121,16 @@ def _bent_shot_error(pair: MeshPair, points: np.ndarray) -> float | None:
 
 
 def _surface_samples(mesh: Mesh) -> SurfaceSamples:
-    """Every few vertices of a ``mesh`` of unit area."""
-    at = np.arange(0, len(mesh.vertices), 6)  # of a copy every so many vertices have SHOT
+    """Return every sixth vertex of a ``mesh`` of unit area as samples."""
+    at = np.arange(0, len(mesh.vertices), 6)
     return SurfaceSamples(position_normals(mesh)[at], _descriptors(mesh, at))
 
 
 def _shot_difference(samples: SurfaceSamples, other: Mesh) -> float:
-    """Mean squared difference of SHOT of ``samples`` and of the vertices of an ``other`` surface nearest to them."""
-    near = np.asarray(KDTree(position_normals(other)).query(samples.position_normals)[1])
-    return float(((samples.descriptors - _descriptors(other, near)) ** 2).sum(axis=1).mean())
+    """Return the mean squared difference of SHOT between ``samples`` and the nearest vertices of ``other``."""
+    nearest_vertices = np.asarray(KDTree(position_normals(other)).query(samples.position_normals)[1])
+    return float(((samples.descriptors - _descriptors(other, nearest_vertices)) ** 2).sum(axis=1).mean())
 
 
 def _descriptors(mesh: Mesh, at: np.ndarray) -> np.ndarray:
-    return shot(mesh, 0.2, samples=5000, at=at)  # a foot or a head and what it sits on
+    return shot(mesh, 0.2, samples=5000, at=at)  # the radius covers a foot or a head and what is next to it

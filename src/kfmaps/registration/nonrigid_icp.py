@@ -1,15 +1,15 @@
-"""The source bent onto the target as the last step of a match, which brings back points that slid along the surface.
+"""Non-rigid ICP of the source onto the target, the last step of a match.
 
 A refined functional map is right up to a smooth sliding of points, which its basis hardly sees, and here and there a
-limb is twisted or folded. So the source's mesh is bent onto the target as rigidly as possible (Sorkine and Alexa 2007)
-by a non-rigid ICP (Amberg et al. 2007) that begins with the map: closest points in both directions, compared with
-normals, and distances mostly along the normal, so that points may slide to where they bend the source least.
-Neighbouring rotations are kept alike (Levi and Gotsman 2015): their differences are less at the true correspondence
-than at a map whose limbs are twisted, where bending alone hardly tells the two apart. Landmarks hold softly. Then each
-target vertex takes the closest point on the bent source, inside a triangle; where parts of a body touch, of the right
-one (:mod:`kfmaps.registration.contact_projection`).
+limb is twisted or folded. So the source is deformed onto the target as rigidly as possible (Sorkine and Alexa 2007) by
+a non-rigid ICP (Amberg et al. 2007) that begins with the map. It takes closest points in both directions, compared with
+their normals, and weighs distances mostly along the normals, so that points may slide to where the source is deformed
+least. Rotations are smoothed (Levi and Gotsman 2015), since they vary more over twisted limbs than at the true map,
+while the energies of the two hardly differ. Landmarks pull softly. Then each target vertex takes the closest point of
+the registered source, inside a triangle; where parts of a body touch, of the right part
+(:mod:`kfmaps.registration.contact_projection`).
 
-It comes last: a refinement after it would go back to where it was.
+It comes last, since a refinement after it would undo it.
 """
 
 from __future__ import annotations
@@ -42,35 +42,33 @@ from kfmaps.registration.deformable import (
 )
 from kfmaps.registration.local_scaling import local_scaling
 
-_Kept = TypeVar("_Kept")
+_Cached = TypeVar("_Cached")
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000
-"""Vertices above which the fit begins with coarse copies, and vertices of a copy: 1.4 % of √area apart, finer than what
-the first levels' stiffness lets bend."""
+"""Vertices above which a registration begins with coarse proxies, and vertices of a proxy. These are 1.4 % of √area
+apart, less than the size of details that the first levels follow."""
 _SCALED_LANDMARK_PULL = (30.0, 0.1)
-"""The pull of landmarks where sizes may change, as between shapes of other proportions: maps are farther off than a
-click."""
+"""The pull of landmarks with local scaling, between shapes of other proportions, whose maps are less exact than
+clicks."""
 
 
 @dataclass(frozen=True, eq=False)
 class Registration:
-    """A source bent onto a target, both at unit area."""
+    """A source registered onto a target, both at unit area."""
 
-    vertices: np.ndarray  # (n_s, 3): the source's, where they lie on the target
-    faces: np.ndarray  # (n_t,): the source face that each target vertex lies on
-    # (n_t, 3): the barycentric coordinates of its place there
-    # (:func:`kfmaps.registration.contact_projection.project_with_contact`).
-    weights: np.ndarray
-    bending: float  # as-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.arap_energy`): 0 for a motion
-    gap: float  # root of the mean squared distance of the two surfaces, in both directions, in units of √area
+    vertices: np.ndarray  # (n_s, 3): of the source, on the target
+    faces: np.ndarray  # (n_t,): the source face of each target vertex
+    weights: np.ndarray  # (n_t, 3): and its barycentric coordinates there
+    bending: float  # as-rigid-as-possible energy per area: 0 for a rigid motion
+    gap: float  # root mean square distance of the two surfaces, in both directions, in √area
 
 
 @settings_record
 class NonRigid:
     """Settings of the non-rigid fit; callable as ``(source, target, target_to_source) -> Registration``.
 
-    Details smaller than the root of ``stiffness`` follow the target at the first level. Smoothing keeps limbs from
-    being twisted; 0 leaves each vertex its own rotation. See also :mod:`kfmaps.registration.local_scaling`.
+    Details smaller than the root of ``stiffness`` follow the target at the first level. Smoothing of rotations, unless
+    it is 0, keeps limbs from being twisted. See also :mod:`kfmaps.registration.local_scaling`.
     """
 
     stiffness: float = setting(2e-4, "stiffness of the first level, in units of area", above=0)
@@ -88,7 +86,7 @@ class NonRigid:
         landmarks: np.ndarray | None = None,
         held: np.ndarray | None = None,
     ) -> Registration:
-        """Bend a source onto a target, beginning with a map.
+        """Register a source onto a target, beginning with a map.
 
         Parameters
         ----------
@@ -96,11 +94,11 @@ class NonRigid:
             At unit area.
         target_to_source : (n_t,) int64
         progress : callable, optional
-            Told how much is done, from 0 to 1.
+            Called with how much is done, from 0 to 1.
         landmarks : (l, 2) int64, optional
             Pairs "source vertex, target vertex", which are pulled together softly.
         held : (n_t,) float64, optional
-            From 0 to 1, how much each target vertex shall stay with its image in the map.
+            From 0 to 1, how strongly each target vertex is held at its image in the map.
 
         Raises
         ------
@@ -112,39 +110,37 @@ class NonRigid:
                 raise refuse(name, "a surface with faces", "a point cloud", "leave out the non-rigid fit")
         report = progress or (lambda _done: None)
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
-        marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+        landmarks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
         x = None
         if max(len(source.vertices), len(target.vertices)) > _PROXY_FROM:
-            x = self._of_copies(source, target, points, lambda done: report(0.3 * done), marks, held)
+            x = self._register_proxies(source, target, points, lambda done: report(0.3 * done), landmarks, held)
         pair = mesh_pair(deformable_mesh(source), target)
-        x, gap = self.bent(pair, points, x, report, marks, held)
-        found = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
+        x, gap = self.bent(pair, points, x, report, landmarks, held)
+        projected = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
         energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
-        return Registration(x, found.faces, found.weights, energy, gap)
+        return Registration(x, projected.faces, projected.weights, energy, gap)
 
-    def _of_copies(
+    def _register_proxies(
         self,
         source: Mesh,
         target: Mesh,
         points: np.ndarray,
         report: Callable[[float], None],
-        marks: np.ndarray,
+        landmarks: np.ndarray,
         held: np.ndarray | None,
     ) -> np.ndarray:
-        """The source's vertices (n_s, 3) as they follow the fit of coarse copies of both."""
-        a, b = (
-            coarse_proxy(mesh, spread_vertices(mesh, _PROXY_VERTICES, marks[:, side]))
-            for side, mesh in enumerate((source, target))
-        )
+        """Register coarse proxies of both and return the source's vertices (n_s, 3) that follow."""
+        a = coarse_proxy(source, spread_vertices(source, _PROXY_VERTICES, landmarks[:, 0]))
+        b = coarse_proxy(target, spread_vertices(target, _PROXY_VERTICES, landmarks[:, 1]))
         report(0.1)
-        bent, _ = self.bent(
+        x, _ = self.bent(
             mesh_pair(deformable_mesh(a.mesh), b.mesh),
             a.owner[points[b.vertices]],
             report=lambda done: report(0.1 + 0.9 * done),
-            marks=np.stack([a.owner[marks[:, 0]], b.owner[marks[:, 1]]], axis=1),
+            landmarks=np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1),
             held=None if held is None else held[b.vertices],
         )
-        return embedded_deformation(a, source, bent, rotations(build_arap(a.mesh), bent))
+        return embedded_deformation(a, source, x, rotations(build_arap(a.mesh), x))
 
     def bent(
         self,
@@ -152,104 +148,102 @@ class NonRigid:
         points: np.ndarray,
         x: np.ndarray | None = None,
         report: Callable[[float], None] = lambda _done: None,
-        marks: np.ndarray | None = None,
+        landmarks: np.ndarray | None = None,
         held: np.ndarray | None = None,
     ) -> tuple[np.ndarray, float]:
-        """Return the source's vertices (n_s, 3) on the target, and the gap, of two surfaces that are ready for it.
+        """Return the registered vertices (n_s, 3) of a prepared pair, and the gap.
 
-        With ``x (n_s, 3)``, where the source lies nearly, only the last level is done. The other parameters are those
-        of :meth:`__call__`.
+        With ``x (n_s, 3)``, a nearly registered source, only the last level is done. The other parameters are those of
+        :meth:`__call__`.
         """
-        levels, steps, begun = range(self.n_levels), self.steps, 0.2
+        levels, steps, done_before = range(self.n_levels), self.steps, 0.2
         if x is not None:
-            levels, steps, begun = range(self.n_levels)[-1:], min(self.steps, 2), 0.3
+            levels, steps, done_before = range(self.n_levels)[-1:], min(self.steps, 2), 0.3
         else:
             places = pair.target.vertices, pair.normals_t, pair.areas_t
             x = pair.once(points.tobytes(), lambda: initial_deformation(pair.body, points, *places))
-            report(begun)
-        even = _evened(pair, self.rotation_smoothing)
+            report(done_before)
+        smooth = _rotation_smoothing(pair, self.rotation_smoothing)
         area = self.local_scaling
-        stretched = pair.once(("sizes", area), lambda: local_scaling(pair.body.energy, pair.body.areas, area))
-        marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
+        scale = pair.once(("sizes", area), lambda: local_scaling(pair.body.energy, pair.body.areas, area))
+        landmarks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
         strength = _SCALED_LANDMARK_PULL if self.local_scaling else LANDMARK_PULL
-        pull = landmark_pull(pair.body, marks[:, 0], pair.target.vertices[marks[:, 1]], strength)
-        stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
+        pull = landmark_pull(pair.body, landmarks[:, 0], pair.target.vertices[landmarks[:, 1]], strength)
+        pinned = [] if held is None or not held.any() else [_pin_term(pair, points, held)]
         gap = 0.0
 
         def terms(x: np.ndarray, stiffness: float) -> list[DataTerm]:
             nonlocal gap
-            found, gap = _closest_terms(pair, x)
-            return [*found, *stays, *pull.terms(x, stiffness)]
+            closest, gap = _closest_terms(pair, x)
+            return [*closest, *pinned, *pull.terms(x, stiffness)]
 
-        def turns(x: np.ndarray) -> np.ndarray:
-            return stretched(x, even(rotations(pair.body.energy, x)))
+        def transforms(x: np.ndarray) -> np.ndarray:
+            return scale(x, smooth(rotations(pair.body.energy, x)))
+
+        def progress(done: float) -> None:
+            report(done_before + (1 - done_before) * done)
 
         stiffness = [self.stiffness * 10 ** (-0.5 * level) for level in levels]
-        x = descend_levels(
-            pair.body, x, stiffness, steps, 2.0, terms, turns, lambda done: report(begun + (1 - begun) * done)
-        )
-        return x, gap
+        return descend_levels(pair.body, x, stiffness, steps, 2.0, terms, transforms, progress), gap
 
 
 @dataclass(frozen=True, eq=False)
 class MeshPair:
-    """Two surfaces and what stays the same while the first is bent onto the second; made by :func:`mesh_pair`."""
+    """A source and a target with what several registrations of them share; made by :func:`mesh_pair`."""
 
-    body: DeformableMesh
+    body: DeformableMesh  # the source
     target: Mesh
-    areas_t: np.ndarray
-    look_t: ClosestPointQuery
-    kept: dict[object, Any] = field(default_factory=dict)  # what :meth:`once` has made
+    areas_t: np.ndarray  # (n_t,): of the target's vertices
+    query_t: ClosestPointQuery
+    cache: dict[object, Any] = field(default_factory=dict)  # of :meth:`once`
 
-    def once(self, key: object, make: Callable[[], _Kept]) -> _Kept:
-        """Return what ``make`` returns, made once for each ``key``: several fits begin alike, and some are repeated."""
-        if key not in self.kept:
-            self.kept[key] = make()
-        return self.kept[key]
+    def once(self, key: object, make: Callable[[], _Cached]) -> _Cached:
+        """Return the cached result of ``make`` for a ``key``; several registrations begin alike or are repeated."""
+        if key not in self.cache:
+            self.cache[key] = make()
+        return self.cache[key]
 
     @property
     def normals_t(self) -> np.ndarray:
-        """Of the target's vertices, (n_t, 3)."""
-        return self.look_t.normals
+        """The normals of the target's vertices, (n_t, 3)."""
+        return self.query_t.normals
 
 
-def mesh_pair(body: DeformableMesh, target: Mesh, look_t: ClosestPointQuery | None = None) -> MeshPair:
-    """Return a surface at rest and the one to bend it onto; ``look_t``: the target's query, where it exists already."""
-    return MeshPair(body, target, vertex_areas(target), closest_point_query(target) if look_t is None else look_t)
+def mesh_pair(body: DeformableMesh, target: Mesh, query_t: ClosestPointQuery | None = None) -> MeshPair:
+    """Return a pair to register; ``query_t``: of the target, if it exists already."""
+    return MeshPair(body, target, vertex_areas(target), closest_point_query(target) if query_t is None else query_t)
 
 
-def _evened(pair: MeshPair, area: float) -> Callable[[np.ndarray], np.ndarray]:
-    """Averages rotations ``(n_s, 3, 3)`` with those around: one step of implicit diffusion over ``area``."""
+def _rotation_smoothing(pair: MeshPair, area: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a function that smooths rotations ``R (n_s, 3, 3)`` by one step of implicit diffusion over ``area``."""
     if area == 0:
-        return lambda turns: turns
+        return lambda R: R
     diffuse = pair.body.solver(area, 1.0)
-    return lambda turns: nearest_rotations(
-        diffuse(pair.body.areas[:, None] * turns.reshape(len(turns), 9)).reshape(turns.shape)
-    )
+    return lambda R: nearest_rotations(diffuse(pair.body.areas[:, None] * R.reshape(len(R), 9)).reshape(R.shape))
 
 
-def _stays(pair: MeshPair, points: np.ndarray, held: np.ndarray) -> DataTerm:
-    """The map itself as a term, with weights ``held (n_t,)``."""
-    some = np.flatnonzero(held)
-    rows = csr_array(
-        (np.ones(len(some)), points[some], np.arange(len(some) + 1)), shape=(len(some), len(pair.body.areas))
-    )
-    return DataTerm(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
+def _pin_term(pair: MeshPair, points: np.ndarray, held: np.ndarray) -> DataTerm:
+    """Return the term that holds target vertices at their images in the map, with weights ``held (n_t,)``."""
+    rows = np.flatnonzero(held)
+    shape = len(rows), len(pair.body.areas)
+    selection = csr_array((np.ones(len(rows)), points[rows], np.arange(len(rows) + 1)), shape=shape)
+    return DataTerm(held[rows] * pair.areas_t[rows], pair.target.vertices[rows], selection)
 
 
 def _closest_terms(pair: MeshPair, x: np.ndarray) -> tuple[list[DataTerm], float]:
-    """Closest points in both directions as terms, and how far the surfaces are apart (root mean square)."""
-    bent = Mesh(x, pair.body.mesh.faces)
-    normals = vertex_normals(bent)
-    forth, there, agree_s = pair.look_t(x, normals)
-    back, _, agree_t = closest_point_query(bent, normals, pair.body.around)(pair.target.vertices, pair.normals_t)
-    rows = barycentric_matrix(back.faces, back.weights, bent.faces, len(x))
+    """Return terms of the closest points in both directions, and the root mean square distance."""
+    deformed = Mesh(x, pair.body.mesh.faces)
+    normals = vertex_normals(deformed)
+    forth, normals_forth, agreement_s = pair.query_t(x, normals)
+    query_s = closest_point_query(deformed, normals, pair.body.around)
+    back, _, agreement_t = query_s(pair.target.vertices, pair.normals_t)
+    rows = barycentric_matrix(back.faces, back.weights, deformed.faces, len(x))
     terms = [
-        DataTerm(pair.body.areas * agree_s, forth.points, None, there),
-        DataTerm(pair.areas_t * agree_t, pair.target.vertices, rows, pair.normals_t),
+        DataTerm(pair.body.areas * agreement_s, forth.points, None, normals_forth),
+        DataTerm(pair.areas_t * agreement_t, pair.target.vertices, rows, pair.normals_t),
     ]
     squares = [
-        np.average(places.distances**2, weights=areas)
-        for places, areas in ((forth, pair.body.areas), (back, pair.areas_t))
+        np.average(forth.distances**2, weights=pair.body.areas),
+        np.average(back.distances**2, weights=pair.areas_t),
     ]
     return terms, float(np.sqrt(np.mean(squares)))

@@ -1,4 +1,4 @@
-"""Small patches of a map that are torn off from all that is around them, such as an ear that has gone to the tail."""
+"""Repair of small patches of a map that are torn off, such as an ear that is mapped to the tail."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from kfmaps.geometry.connectivity import component_labels, mesh_edges
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 
 _MIN_JUMP = 0.15
-"""Distance in √area from which the images of neighbouring vertices are torn apart, beside the length of their edge."""
+"""Distance in √area between the images of neighbouring vertices, above the length of their edge, from which it is
+torn."""
 _MAX_AREA = 0.05
-"""Share of the area up to which a patch is taken back; what is larger may be a limb, which an alternative may have
-right."""
+"""Largest share of the area of a patch that is rejoined. A larger one may be a limb that an alternative has right."""
 
 
 def rejoin_torn_patches(points: np.ndarray, source: Mesh, target: Mesh) -> np.ndarray:
-    """Return the map with small patches that are torn off sent to where the vertices beside them go, (n_t,).
+    """Return the map with small torn patches mapped to the images of the vertices beside them, (n_t,).
 
     An edge of the target is torn where the images of its ends are far apart. What torn edges cut off from the largest
-    part of its connected component is a patch. A registration that begins with one may stretch the source from the one
-    place to the other, and cannot come back.
+    part of its connected component is a patch. A registration that begins with a torn patch may stretch the source
+    between two places and cannot recover.
 
     ``points (n_t,)``: a source vertex for each target vertex; both surfaces at unit area.
     """
@@ -32,15 +32,15 @@ def rejoin_torn_patches(points: np.ndarray, source: Mesh, target: Mesh) -> np.nd
     joined = jumps < _MIN_JUMP + lengths
     if joined.all():
         return points
-    bodies, body = component_labels(n, a, b)
+    n_components, component = component_labels(n, a, b)
     _, patch = component_labels(n, a[joined], b[joined])
     areas = vertex_areas(target)
     size = np.bincount(patch, areas)[patch]
-    largest, order = np.zeros(bodies, dtype=np.int64), np.argsort(size, kind="stable")
-    largest[body[order]] = patch[order]
-    torn = (patch != largest[body]) & (size < _MAX_AREA * areas.sum())
+    largest, order = np.zeros(n_components, dtype=np.int64), np.argsort(size, kind="stable")
+    largest[component[order]] = patch[order]
+    torn = (patch != largest[component]) & (size < _MAX_AREA * areas.sum())
     near = torn[a] | torn[b]
     graph = csr_array((lengths[near], (a[near], b[near])), shape=(n, n))
-    kept = np.flatnonzero(~torn)
-    beside = dijkstra(graph, directed=False, indices=kept, min_only=True, return_predecessors=True)[2]
-    return np.where(torn & (beside >= 0), points[beside], points)
+    sources = np.flatnonzero(~torn)
+    nearest = dijkstra(graph, directed=False, indices=sources, min_only=True, return_predecessors=True)[2]
+    return np.where(torn & (nearest >= 0), points[nearest], points)
