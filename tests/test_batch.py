@@ -26,7 +26,7 @@ from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.batch.work import attempts, map_path, match_pair, prepare_shape
+from kfmaps.batch.work import count_attempts, map_path, match_pair, prepare_shape
 from kfmaps.cli.evaluation import Truth, assess
 from kfmaps.config import NystromConfig, Search
 from kfmaps.fmap.evaluate import geodesic_errors
@@ -249,8 +249,8 @@ def test_attempts_are_counted_across_kills(folder: Path, tmp_path: Path) -> None
     touch(tmp_path / "attempts" / f"{task.pair.key}.1", "{}")
     result = match_pair((task, prepare_shape(task.source), prepare_shape(task.target)))
     assert (result.status, result.attempts) == ("done", 2)
-    assert attempts(tmp_path, task.pair.key) == 2
-    assert attempts(tmp_path, task.source.key) == 1
+    assert count_attempts(tmp_path, task.pair.key) == 2
+    assert count_attempts(tmp_path, task.source.key) == 1
 
 
 def test_mirrored_truth(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from collecting import CONFIG, plan_of, touch
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.cache import file_digest
 from kfmaps.batch.jobs import WorkerPool
-from kfmaps.batch.layout import Pair, find_collection, listed_pairs, natural
+from kfmaps.batch.layout import Pair, find_collection, natural_key, read_pairs
 from kfmaps.batch.plan import graph_pairs
 from kfmaps.batch.progress import WorkLeft
 from kfmaps.batch.results import read_result
@@ -36,7 +36,7 @@ def test_remeshed_layouts(tmp_path: Path, sub: str) -> None:
     assert set(found.truth) == set(found.mirrored) == set(found.shapes)
     assert found.mirrored["tr_reg_2"].name == "tr_reg_2.sym.vts"
     assert set(found.landmarks) == {"tr_reg_2"}
-    assert listed_pairs(found) == [Pair("tr_reg_2", "tr_reg_10"), Pair("tr_reg_10", "tr_reg_2")]
+    assert read_pairs(found) == [Pair("tr_reg_2", "tr_reg_10"), Pair("tr_reg_10", "tr_reg_2")]
 
 
 def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
@@ -45,7 +45,7 @@ def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
     for name in ("10_1", "2_10", "a_b_2", "7_1"):
         touch(tmp_path / "corres" / f"{name}.map")
     found = find_collection(tmp_path)
-    assert listed_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
+    assert read_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
 
 
 def test_what_cannot_be_a_collection(tmp_path: Path) -> None:
@@ -70,7 +70,7 @@ def test_choices_of_pairs(tmp_path: Path) -> None:
     assert len(set(both)) == len(both) == 6
     assert graph_pairs(found, spec, tmp_path / "out", "star:b.off", pool) == [Pair("b", "a"), Pair("b", "c")]
     file = touch(tmp_path / "list.txt", "a b\na b\nb a")
-    assert listed_pairs(found, file) == [Pair("a", "b"), Pair("b", "a")]
+    assert read_pairs(found, file) == [Pair("a", "b"), Pair("b", "a")]
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,7 @@ def test_bad_lists_of_pairs(tmp_path: Path, text: str, message: str) -> None:
     for name in ("a", "b"):
         touch(tmp_path / f"{name}.off")
     with pytest.raises(InvalidInput, match=message):
-        listed_pairs(find_collection(tmp_path), touch(tmp_path / "list.txt", text))
+        read_pairs(find_collection(tmp_path), touch(tmp_path / "list.txt", text))
 
 
 def test_bad_choices_of_pairs(tmp_path: Path) -> None:
@@ -89,7 +89,7 @@ def test_bad_choices_of_pairs(tmp_path: Path) -> None:
     found = find_collection(tmp_path)
     for file, message in ((None, "test_pairs.txt"), (tmp_path / "none.txt", "nothing there")):
         with pytest.raises(InvalidInput, match=message):
-            listed_pairs(found, file)
+            read_pairs(found, file)
     with pytest.raises(InvalidInput, match="two shapes"):
         graph_pairs(found, RunSpec(CONFIG), tmp_path / "out", "both", WorkerPool())
     touch(tmp_path / "b.off")
@@ -195,7 +195,7 @@ def test_remaining_time_is_within_a_factor_of_one_and_a_half(order: str, workers
 
 
 def test_durations_and_names_for_people() -> None:
-    assert sorted(["s10", "s9", "s1a", "10", "9"], key=natural) == ["9", "10", "s1a", "s9", "s10"]
+    assert sorted(["s10", "s9", "s1a", "10", "9"], key=natural_key) == ["9", "10", "s1a", "s9", "s10"]
     assert [format_seconds(s) for s in (7.4, 99, 130, 12000)] == ["7 s", "99 s", "2 min", "3 h 20 min"]
 
 

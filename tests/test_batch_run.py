@@ -29,9 +29,9 @@ from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import Plan, make_plan
 from kfmaps.batch.progress import RunStatus
 from kfmaps.batch.results import Result, result_path
-from kfmaps.batch.run import _check_workers, _match_pairs, _tidied, run_batch
+from kfmaps.batch.run import _check_workers, _match_pairs, _without_unfinished_files, run_batch
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.batch.work import attempts, map_path, prepare_shape
+from kfmaps.batch.work import count_attempts, map_path, prepare_shape
 from kfmaps.io import load_map
 
 
@@ -57,7 +57,7 @@ def under_way(plan: Plan) -> tuple[int, str] | None:
 
 def shape_attempts(plan: Plan) -> list[int]:
     entries = {t.key for task in plan.tasks for t in (task.source, task.target)}
-    return [attempts(plan.folder, entry) for entry in sorted(entries)]
+    return [count_attempts(plan.folder, entry) for entry in sorted(entries)]
 
 
 def gone(process: int) -> bool:
@@ -295,7 +295,7 @@ def test_what_killed_workers_left_is_taken_away(tmp_path: Path) -> None:
     left = [plan.folder / place / ".unfinished-0123456789ab.json" for place in (".", "pairs", "maps", "cache")]
     for path in left:
         path.write_text("half")
-    with _tidied(plan):
+    with _without_unfinished_files(plan):
         assert not any(path.exists() for path in left)
         left[1].write_text("half")
     assert not left[1].exists()
@@ -313,7 +313,7 @@ def test_what_other_runs_are_writing_to_a_shared_cache_stays(tmp_path: Path) -> 
     for path in (old, new):
         path.write_text("half")
     os.utime(old, (0, 0))
-    with _tidied(plan):
+    with _without_unfinished_files(plan):
         assert (old.exists(), new.exists()) == (False, True)
 
 

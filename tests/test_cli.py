@@ -101,7 +101,12 @@ def test_a_command_has_few_options_and_speaks_json(name: str) -> None:
 
 
 def test_required_verdicts() -> None:
-    assert [meets(word, "likely") for word in ("sure", "likely", "ambiguous", "unlikely")] == [True, True, False, False]
+    assert [meets(word, "likely") for word in ("sure", "likely", "ambiguous", "unlikely")] == [
+        True,
+        True,
+        False,
+        False,
+    ]
     assert [meets(word, "sure") for word in ("sure", "likely", "landmarks", "unchecked", "")] == [True] + 4 * [False]
     assert meets("unlikely", None)
     assert "--require: expected sure or likely" in run("match", "a.off", "b.off", "--require", "good").error

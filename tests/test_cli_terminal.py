@@ -17,7 +17,7 @@ from rich.text import Text
 
 from commandline import SMALL, Ran, run, shapes
 from conftest import blob
-from kfmaps._arrays import refuse, shown
+from kfmaps._arrays import printable, refuse
 from kfmaps.cli.terminal import Terminal
 from kfmaps.io import Values, atomic_output, save_map, write_mesh, write_values
 from kfmaps.matching.result import Match
@@ -32,9 +32,9 @@ def check_plain(ran: Ran) -> None:
 
 
 def test_shown() -> None:
-    assert shown("a 1 × 2 √ü") == "a 1 × 2 √ü"
-    assert shown(EVIL).isprintable()
-    assert shown("a\x1bb\n\u202e\udcff") == "a\\x1bb\\n\\u202e\\udcff"
+    assert printable("a 1 × 2 √ü") == "a 1 × 2 √ü"
+    assert printable(EVIL).isprintable()
+    assert printable("a\x1bb\n\u202e\udcff") == "a\\x1bb\\n\\u202e\\udcff"
     assert str(refuse(EVIL, EVIL, EVIL, EVIL)).isprintable()
 
 

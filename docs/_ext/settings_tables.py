@@ -9,7 +9,7 @@ from typing import Any
 
 from kfmaps._records import Setting, walk
 from kfmaps.config import FORMULATIONS, KINDS, Config
-from kfmaps.settings import PRESETS, preset, text_of
+from kfmaps.settings import PRESETS, preset, toml_value
 
 BEGIN, END = "<!-- begin: made by docs/_ext/settings_tables.py -->", "<!-- end -->"
 
@@ -22,7 +22,7 @@ def _value_in(config: Config, path: str, cls: type, one: Setting) -> str:
     value = value() if isinstance(value, type) else value
     if value is MISSING:
         return ""
-    return type(value).__name__.lower() if is_dataclass(value) else text_of(value, one).strip('"')
+    return type(value).__name__.lower() if is_dataclass(value) else toml_value(value, one).strip('"')
 
 
 def tables() -> str:

@@ -11,8 +11,8 @@ from kfmaps._errors import InvalidInput as InvalidInput
 from kfmaps._errors import KfmapsWarning as KfmapsWarning
 from kfmaps._errors import MissingDependency as MissingDependency
 from kfmaps._errors import NotConverged as NotConverged
+from kfmaps._errors import printable as printable
 from kfmaps._errors import refuse as refuse
-from kfmaps._errors import shown as shown
 
 Array = Any
 """An array of any library that follows the array-API standard (NumPy, PyTorch, array-api-strict)."""

@@ -26,7 +26,7 @@ def refuse(name: str, expected: str, got: str, remedy: str) -> InvalidInput:
     that say what to do, whose first capital and last full stop may be left out.
     """
     problem = f"{name}: expected {expected}, got {got}"
-    return InvalidInput(shown(f"{_sentence(problem, '')} {_sentence(remedy, remedy[:1].upper())}"))
+    return InvalidInput(printable(f"{_sentence(problem, '')} {_sentence(remedy, remedy[:1].upper())}"))
 
 
 def _sentence(text: str, first: str) -> str:
@@ -34,7 +34,7 @@ def _sentence(text: str, first: str) -> str:
     return (first or text[:1]) + text[1:] + ("" if text.endswith((".", "?", "!")) else ".")
 
 
-def shown(text: str) -> str:
+def printable(text: str) -> str:
     """Return ``text`` with codes in place of control characters and others that cannot be printed.
 
     A file may have any name, and its name must not move the cursor, change colours or break the line.

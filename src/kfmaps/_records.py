@@ -213,10 +213,10 @@ def update(record: _T, values: JsonObject, fresh: Any, kinds: Kinds) -> _T:
     ``"none"``, ``"all"`` and ``"automatic"`` stand for ``None`` where that is allowed. A record of a new kind starts
     from the one in ``fresh`` where that has the same kind, else from its defaults.
     """
-    return _updated(type(record), values, record, fresh, "", kinds)
+    return _update(type(record), values, record, fresh, "", kinds)
 
 
-def _updated(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds: Kinds) -> Any:
+def _update(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds: Kinds) -> Any:
     """Return a record of class ``cls`` with ``values``; other fields are as in ``current`` or by default."""
     settings, changes = settings_of(cls), {}
     for name, value in _table(values, path).items():
@@ -240,7 +240,7 @@ def _value(item: Setting, value: Any, current: Any, fresh: Any, label: str, kind
     if item.optional and (value is None or (isinstance(value, str) and value.lower() in NONE_WORDS)):
         return None
     if len(records) == 1 and not item.optional:
-        return _updated(records[0], value, current, fresh, label, kinds)
+        return _update(records[0], value, current, fresh, label, kinds)
     if records and not (value is None and not item.optional):
         return _one_of(records, item, value, current, fresh, label, kinds)
     if any(get_origin(hint) is tuple for hint in item.types):
@@ -265,7 +265,7 @@ def _one_of(
         raise refuse(f"{label}.kind", "one of " + ", ".join(by_name), got, "choose one of them")
     cls = by_name[kind.lower()]
     base = next((record for record in (current, fresh) if type(record) is cls), None)
-    return _updated(cls, table, base, None, label, kinds)
+    return _update(cls, table, base, None, label, kinds)
 
 
 def _table(value: object, label: str) -> JsonObject:
@@ -295,11 +295,11 @@ def short_repr(self: object) -> str:
         shape = getattr(value, "shape", None)
         is_default = type(value) is type(default) and (0 in shape if shape else value == default)
         if not (value is default or is_default):
-            parts.append(f"{f.name}={_shortened(value)}")
+            parts.append(f"{f.name}={_short_text(value)}")
     return f"{type(self).__name__}({', '.join(parts)})"
 
 
-def _shortened(value: object) -> str:
+def _short_text(value: object) -> str:
     """Return a short text of a record's value."""
     shape = getattr(value, "shape", None)
     if shape:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps._progress import Progress
-from kfmaps.cli.evaluation import Truth, check_truth, known_truth
+from kfmaps.cli.evaluation import Truth, check_truth, read_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
 from kfmaps.fmap import evaluate
@@ -402,9 +402,9 @@ def _truth(truth: _Truth | None, meshes: tuple[Mesh, Mesh], identity: bool = Fal
     """Return corresponding vertices of both shapes, from a truth as :func:`render` takes it."""
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
     if truth is None or isinstance(truth, Truth):
-        return known_truth(None, n_s, n_t, identity=True) if identity else truth
+        return read_truth(None, n_s, n_t, identity=True) if identity else truth
     if isinstance(truth, tuple) and is_file(truth[0]) and is_file(truth[1]):
-        return known_truth((Path(truth[0]), Path(truth[1])), n_s, n_t, identity=identity)
+        return read_truth((Path(truth[0]), Path(truth[1])), n_s, n_t, identity=identity)
     if not isinstance(truth, tuple):
         points = check_map(truth, n_s, n_t, "truth", partial=True)
         matched = np.flatnonzero(points >= 0)

@@ -101,15 +101,15 @@ def _lines(record: Any, section: str, comments: bool) -> list[str]:
         if one.python_only or callable(value):
             got = describe_kernel(value)
             raise refuse(path, "a record that a settings file can name", got, "write one of kfmaps' own")
-        line = f"{one.name} = {text_of(value, one)}"
+        line = f"{one.name} = {toml_value(value, one)}"
         lines.append(f"{line:<30} # {one.help} ({one.values(KINDS)})" if comments and one.help else line)
     return lines + tables
 
 
-def text_of(value: object, setting: Setting) -> str:
+def toml_value(value: object, setting: Setting) -> str:
     """Return a value as TOML."""
     if isinstance(value, tuple):
-        return f"[{', '.join(text_of(item, setting) for item in value)}]"
+        return f"[{', '.join(toml_value(item, setting) for item in value)}]"
     return json.dumps(setting.none if value is None else record_as_dict(value, {}), ensure_ascii=False)
 
 

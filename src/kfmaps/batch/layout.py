@@ -64,7 +64,7 @@ class ShapeFolder:
     pairs: Path | None = None  # the folder's own list of pairs
 
 
-def natural(name: str) -> list[tuple[int, int, str]]:
+def natural_key(name: str) -> list[tuple[int, int, str]]:
     """Return a sorting key under which numbers inside names count as numbers."""
     parts = re.findall(r"\d+|\D+", name)
     return [(0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts]
@@ -119,7 +119,7 @@ def _shapes(folder: Path) -> dict[str, Path]:
             got = f"{shapes[path.stem].name} and {path.name}"
             raise refuse(f"shape {path.stem}", "one file for each name", got, "keep one of them")
         shapes[path.stem] = path
-    return {name: shapes[name] for name in sorted(shapes, key=natural)}
+    return {name: shapes[name] for name in sorted(shapes, key=natural_key)}
 
 
 def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair, Path]:
@@ -131,10 +131,10 @@ def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair,
             pair = Pair("_".join(parts[:cut]), "_".join(parts[cut:]))
             if pair.source in shapes and pair.target in shapes:
                 maps[pair] = path
-    return {pair: maps[pair] for pair in sorted(maps, key=lambda p: (natural(p.source), natural(p.target)))}
+    return {pair: maps[pair] for pair in sorted(maps, key=lambda p: (natural_key(p.source), natural_key(p.target)))}
 
 
-def listed_pairs(collection: ShapeFolder, file: str | Path | None = None) -> list[Pair]:
+def read_pairs(collection: ShapeFolder, file: str | Path | None = None) -> list[Pair]:
     """Return the pairs of a list, each once and in order.
 
     ``file``: two names a line, "source target", with or without the mesh's extension; ``#`` starts a comment. By
@@ -147,7 +147,7 @@ def listed_pairs(collection: ShapeFolder, file: str | Path | None = None) -> lis
     return list(dict.fromkeys(collection.maps if pairs_file is None else _read_pairs(pairs_file, collection)))
 
 
-def known_shape(name: str, collection: ShapeFolder, where: str) -> str:
+def shape_name(name: str, collection: ShapeFolder, where: str) -> str:
     """Return the name of a shape, which may have an extension; ``where``: its place in messages."""
     for candidate in (name, Path(name).stem):
         if candidate in collection.shapes:
@@ -157,7 +157,7 @@ def known_shape(name: str, collection: ShapeFolder, where: str) -> str:
 
 
 def _read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
-    """Read a list of pairs; see :func:`listed_pairs`."""
+    """Read a list of pairs; see :func:`read_pairs`."""
     pairs = []
     for number, line in enumerate(read_text(path).splitlines(), 1):
         words = line.split("#", 1)[0].replace(",", " ").split()
@@ -166,7 +166,7 @@ def _read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
         where = f"{path}, line {number}"
         if len(words) != 2:
             raise refuse(where, "two names, source and target", f"{len(words)}", "write one pair a line")
-        pairs.append(Pair(*(known_shape(word, collection, where) for word in words)))
+        pairs.append(Pair(*(shape_name(word, collection, where) for word in words)))
     if not pairs:
         raise refuse(f"pairs {path}", "two names a line", "no pairs", "check the file")
     return pairs

@@ -140,7 +140,7 @@ def summary_page(
 
 
 def _curve(results: Sequence[Result]) -> dict[str, str] | None:
-    curve = error_curve_of(results, "mean of all pairs")
+    curve = mean_error_curve(results, "mean of all pairs")
     if curve is None:
         return None
     fractions = np.interp((0.01, 0.05, 0.1), curve.thresholds, curve.fractions)
@@ -148,7 +148,7 @@ def _curve(results: Sequence[Result]) -> dict[str, str] | None:
     return {"within": ", ".join(within), "address": _picture(curves_figure([curve], size=(6.4, 3.8)), "svg+xml")}
 
 
-def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
+def mean_error_curve(results: Sequence[Result], label: str) -> Curve | None:
     """Return the mean error curve of the pairs with a known truth, with the band of the middle 80 % of them."""
     curves = [r.curve for r in results if r.status == "done" and r.curve]
     return mean_curve(label, np.array(CURVE_ERRORS), np.array(curves)) if curves else None

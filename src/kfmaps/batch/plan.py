@@ -14,7 +14,7 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.batch.cache import file_digest, shape_key
 from kfmaps.batch.jobs import WorkerPool
-from kfmaps.batch.layout import Pair, ShapeFolder, known_shape
+from kfmaps.batch.layout import Pair, ShapeFolder, shape_name
 from kfmaps.batch.results import FOLDER, Result, read_result, result_path
 from kfmaps.batch.run_spec import RunSpec, claim, digest_of
 from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
@@ -47,7 +47,7 @@ def make_plan(
     if spec.identity and (collection.truth or collection.maps):
         remedy = "leave --identity out, or move the files away"
         raise refuse("--identity", "a collection without files of correspondences", "one with such files", remedy)
-    factory = _Tasks(collection, spec, output)
+    factory = _TaskFactory(collection, spec, output)
     _make_folder(factory.folder / FOLDER)
     tasks = tuple(factory.pair(pair) for pair in pairs)
     todo, results, changed = [], [], 0
@@ -86,11 +86,11 @@ def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind
     if len(names) < 2:
         raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")
     if kind.startswith("star:"):
-        centre = known_shape(kind.removeprefix("star:"), collection, "--graph star:SHAPE")
+        centre = shape_name(kind.removeprefix("star:"), collection, "--graph star:SHAPE")
         return [Pair(centre, name) for name in names if name != centre]
     if kind in ("all", "both"):
         return [Pair(a, b) for a, b in (combinations if kind == "all" else permutations)(names, 2)]
-    factory = _Tasks(collection, spec, output)
+    factory = _TaskFactory(collection, spec, output)
     tasks = [factory.shape(name) for name in names]
     key = digest_of([kind, sorted((task.name, task.content) for task in tasks)], 32)
     path = factory.folder / _GRAPH
@@ -126,7 +126,7 @@ def _read_graph(path: Path, key: str) -> list[Pair] | None:
         return None
 
 
-class _Tasks:
+class _TaskFactory:
     """The maker of tasks in an output folder, which is created and claimed for the specification."""
 
     def __init__(self, collection: ShapeFolder, spec: RunSpec, output: str | Path) -> None:

@@ -26,7 +26,7 @@ from kfmaps.batch.work import (
     PairTask,
     Prepared,
     ShapeTask,
-    attempts,
+    count_attempts,
     error_text,
     match_pair,
     prepare_shape,
@@ -71,7 +71,7 @@ def run_batch(
     interrupted, consistency = False, None
     log = log_to(plan.folder)
     planned = {task.pair for task in plan.tasks}
-    with _locked(plan.folder), _tidied(plan), WorkerPool(workers, progress, log) as pool:
+    with _lock(plan.folder), _without_unfinished_files(plan), WorkerPool(workers, progress, log) as pool:
         of, todo, settings = len(plan.tasks), len(plan.todo), plan.spec.digest
         counts = {"todo": todo, "pairs": of, "settings": settings, "version": kfmaps.__version__}
         log("begin", f"{todo} of {of} pairs to match", **counts)
@@ -159,7 +159,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
 
 
 def _attempts(task: ShapeTask | PairTask) -> int:
-    return attempts(task.folder, task.key)
+    return count_attempts(task.folder, task.key)
 
 
 def _work_left(plan: Plan) -> WorkLeft:
@@ -183,7 +183,7 @@ def _check_workers(plan: Plan, pool: WorkerPool) -> None:
     """Check that every worker has this version and sees the output folder under the same path."""
     name = "workers"
     try:
-        replies: Any = pool.client.run(_seen, str(plan.folder / FILE))
+        replies: Any = pool.client.run(_worker_version, str(plan.folder / FILE))
     except OSError as error:
         raise refuse(name, "processes that answer", "some that ended", TOO_LITTLE_MEMORY) from error
     except Exception as error:  # a worker of another installation may fail in any way
@@ -198,7 +198,7 @@ def _check_workers(plan: Plan, pool: WorkerPool) -> None:
             raise refuse(name, expected, f"none at {address}", "choose a folder that all machines share")
 
 
-def _seen(path: str) -> tuple[str, str]:
+def _worker_version(path: str) -> tuple[str, str]:
     """Return a worker's version of kfmaps, and the digest of the specification at ``path``."""
     try:
         return kfmaps.__version__, json.loads(Path(path).read_text(encoding="utf-8"))["digest"]
@@ -207,7 +207,7 @@ def _seen(path: str) -> tuple[str, str]:
 
 
 @contextmanager
-def _tidied(plan: Plan) -> Iterator[None]:
+def _without_unfinished_files(plan: Plan) -> Iterator[None]:
     """Remove the half-written files of killed workers before and after the block.
 
     In a cache that is a link to another folder, where other runs may be writing, only those older than a day are
@@ -231,7 +231,7 @@ def _tidied(plan: Plan) -> Iterator[None]:
 
 
 @contextmanager
-def _locked(folder: Path) -> Iterator[None]:
+def _lock(folder: Path) -> Iterator[None]:
     """Lock the output folder for this run; the system releases the lock however the run ends."""
     try:
         import fcntl

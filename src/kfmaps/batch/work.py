@@ -23,7 +23,7 @@ from kfmaps.batch.jobs import MAX_DEATHS
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, known_truth, read_vertex_lists
+from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, read_truth, read_vertex_lists
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import Mesh, vertex_areas
@@ -105,18 +105,18 @@ def map_path(folder: Path, key: str) -> Path:
     return folder / MAPS / f"{key}.npz"
 
 
-def begin(folder: Path, key: str) -> int:
+def record_attempt(folder: Path, key: str) -> int:
     """Record the start of work on ``key`` in a small file that survives a kill; return the number of the attempt."""
-    content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": now()})
+    content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": utc_now()})
     (folder / _ATTEMPTS).mkdir(parents=True, exist_ok=True)
     while True:
-        attempt = attempts(folder, key) + 1
+        attempt = count_attempts(folder, key) + 1
         with suppress(FileExistsError), open(folder / _ATTEMPTS / f"{key}.{attempt}", "x", encoding="utf-8") as file:
             file.write(content)
             return attempt
 
 
-def attempts(folder: Path, key: str) -> int:
+def count_attempts(folder: Path, key: str) -> int:
     """Return the number of starts of work on ``key``."""
     count = 0
     while (folder / _ATTEMPTS / f"{key}.{count + 1}").exists():
@@ -128,7 +128,7 @@ def prepare_shape(task: ShapeTask) -> Prepared:
     """Prepare a shape unless the cache has it. A failure is returned, not raised."""
     if load_record(task.entry, Shape) is not None:
         return Prepared(task.name)
-    begin(task.folder, task.key)
+    record_attempt(task.folder, task.key)
 
     def prepared() -> dict[str, Any]:
         if file_digest(task.path) != task.content:
@@ -149,7 +149,7 @@ def match_pair(job: tuple[PairTask, Prepared, Prepared]) -> Result:
         for part in (source, target):
             if part.reason:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
-        return _matched(task)
+        return _match(task)
 
     path = map_path(task.folder, task.key)
     return record_pair(task, task.inputs, task.folder, path, matched, notes=(*source.notes, *target.notes))
@@ -167,7 +167,7 @@ def record_pair(
     if stored is not None and stored.is_of(task.settings, inputs) and path.exists():
         return stored
     start = time.perf_counter()
-    attempt = begin(folder, task.key)
+    attempt = record_attempt(folder, task.key)
     for old in (result_file, path):  # of files that have changed since
         old.unlink(missing_ok=True)
     fields, reason, notes = _attempt(make)
@@ -181,7 +181,7 @@ def record_pair(
 
 def record_failure(task: PairTask, reason: str) -> Result:
     """Record that a pair cannot be matched, for a reason outside its own work."""
-    result = _make_result(task, reason, task.inputs, attempts=attempts(task.folder, task.key), worker="")
+    result = _make_result(task, reason, task.inputs, attempts=count_attempts(task.folder, task.key), worker="")
     write_result(result_path(task.folder, task.key), result)
     return result
 
@@ -189,7 +189,7 @@ def record_failure(task: PairTask, reason: str) -> Result:
 def _make_result(task: PairTask, reason: str, inputs: str, **values: Any) -> Result:
     """Return the result of a pair, which failed where there is a ``reason``, with process and time."""
     pair, status = task.pair, "failed" if reason else "done"
-    values = {"worker": f"{platform.node()}:{os.getpid()}", "finished": now(), **values}
+    values = {"worker": f"{platform.node()}:{os.getpid()}", "finished": utc_now(), **values}
     values["notes"] = tuple(dict.fromkeys(values.get("notes", ())))
     return Result(pair.source, pair.target, status, task.settings, inputs, reason=reason, **values)
 
@@ -214,7 +214,7 @@ def error_text(error: Exception) -> str:
     return " ".join(text.split()) or type(error).__name__
 
 
-def now() -> str:
+def utc_now() -> str:
     """Return the time in UTC."""
     return datetime.now(UTC).isoformat(timespec="milliseconds")
 
@@ -238,7 +238,7 @@ def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamp
     return cached_samples(shapes[0], entries[0], seed), cached_samples(shapes[1], entries[1], seed)
 
 
-def _matched(task: PairTask) -> dict[str, Any]:
+def _match(task: PairTask) -> dict[str, Any]:
     """Match a pair and save the map; return the fields of the result."""
     shapes, config = pair_shapes(task), replace(task.spec.config, threads=1)
     landmarks = _landmark_pairs(task, *(len(shape.mesh.vertices) for shape in shapes))
@@ -302,7 +302,7 @@ def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
 def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
     """Return the truth of a pair, where it is known; ``n_s`` and ``n_t``: numbers of vertices."""
     if task.truth_map is None:
-        return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.spec.identity)
+        return read_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.spec.identity)
     numbers = read_vertex_numbers(task.truth_map, one_based=True)
     if len(numbers) != n_s:
         raise refuse(str(task.truth_map), f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")

@@ -40,7 +40,7 @@ class Truth:
     mirrored: np.ndarray | None = None  # (q,): vertices of the target with left and right swapped
 
 
-def known_truth(
+def read_truth(
     files: tuple[str | Path, str | Path] | None,
     n_s: int,
     n_t: int,

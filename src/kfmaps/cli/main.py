@@ -19,7 +19,7 @@ from typing import Annotated, Any
 import typer
 
 import kfmaps
-from kfmaps._errors import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
+from kfmaps._errors import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, printable
 from kfmaps.cli.streams import standard_streams
 
 COMMANDS = {
@@ -230,7 +230,7 @@ def _report_error(text: str) -> int:
 def _say(text: str) -> None:
     """Print one line on standard error, if the stream is still open."""
     with contextlib.suppress(OSError):
-        print("kfmaps:", shown(" ".join(text.split())), file=sys.stderr)
+        print("kfmaps:", printable(" ".join(text.split())), file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from kfmaps._arrays import shown
+from kfmaps._arrays import printable
 from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import format_seconds
 
@@ -45,7 +45,7 @@ class _Bars:
 
     def update(self, name: str, done: float) -> None:
         if name not in self._tasks:
-            self._tasks[name] = self._bars.add_task(escape(shown(name)), total=1.0)
+            self._tasks[name] = self._bars.add_task(escape(printable(name)), total=1.0)
         elif done <= 0:
             self._bars.reset(self._tasks[name])
         self._bars.update(self._tasks[name], completed=done)
@@ -92,7 +92,7 @@ class Lines:
 
     def _say(self, line: str) -> None:
         self._last = time.monotonic()
-        print(shown(line), file=sys.stderr, flush=True)
+        print(printable(line), file=sys.stderr, flush=True)
 
     def _report_long_stages(self) -> None:
         while not self._closed.wait(self._silence / 10):

@@ -10,7 +10,7 @@ import numpy as np
 from rich.table import Table
 from rich.text import Text
 
-from kfmaps._arrays import shown
+from kfmaps._arrays import printable
 from kfmaps.cli.evaluation import Accuracy
 from kfmaps.cli.words import UNIT, percent, probability_text, verdict_text
 from kfmaps.geometry.mesh import Mesh
@@ -83,7 +83,10 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
             if written.suffix.lower() in (".npz", ".mat")
             else _SHAPE_OPTIONS.format(*(quote(f.path) for _, f in sides))
         )
-        rows += [("written", shown(str(written))), ("next", shown(f"kfmaps view {quote(str(written))}{shapes}"))]
+        rows += [
+            ("written", printable(str(written))),
+            ("next", printable(f"kfmaps view {quote(str(written))}{shapes}")),
+        ]
     return rows
 
 
@@ -96,7 +99,7 @@ def _doubtful_area(match: Match) -> float:
 
 def _shape(mesh: Mesh, name: str) -> str:
     kind = f"{len(mesh.vertices):,} vertices" if len(mesh.faces) else f"{len(mesh.vertices):,} points"
-    return f"{shown(name)} ({kind})"
+    return f"{printable(name)} ({kind})"
 
 
 def _errors_text(accuracy: Accuracy) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
 from rich.segment import Segment
 
-from kfmaps._arrays import shown
+from kfmaps._arrays import printable
 
 
 class Terminal(Console):
@@ -33,12 +33,12 @@ class _Printable:
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         for text, style, control in console.render(self.inside, options):
-            yield Segment(text if control else "\n".join(map(shown, text.split("\n"))), style, control)
+            yield Segment(text if control else "\n".join(map(printable, text.split("\n"))), style, control)
 
 
-def say(text: str) -> None:
+def print_line(text: str) -> None:
     """Print one line on standard output."""
-    print(shown(text))
+    print(printable(text))
 
 
 def print_json(values: object) -> None:

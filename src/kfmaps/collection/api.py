@@ -194,9 +194,9 @@ def match_collection(
     """
     config = config or Config()
     progress = progress or (lambda _what, _done, _of: None)
-    names, prepared = _prepared(shapes, config, progress)
+    names, prepared = _prepare_shapes(shapes, config, progress)
     samples = [scoring_samples(shape, rng) for shape in prepared]
-    given = {} if maps is None else _checked_maps(maps, names, prepared)
+    given = {} if maps is None else _check_maps(maps, names, prepared)
     ends = tuple(given) or signature_graph(graph, np.stack([signature(shape.basis) for shape in prepared]))
     pairs = []
     for i, (a, b) in enumerate(ends):
@@ -210,7 +210,7 @@ def match_collection(
     return _make_consistent(names, prepared, pairs, config, rng, maps is not None)
 
 
-def _prepared(
+def _prepare_shapes(
     shapes: Mapping[str, ShapeLike | Shape] | Sequence[ShapeLike | Shape], config: Config, progress: CountProgress
 ) -> tuple[tuple[str, ...], list[Shape]]:
     """Return the names of the shapes, and the shapes prepared."""
@@ -269,7 +269,7 @@ def _make_consistent(
     )
 
 
-def _checked_maps(
+def _check_maps(
     maps: Mapping[tuple[str, str], MapLike], names: Sequence[str], shapes: Sequence[Shape]
 ) -> dict[tuple[int, int], Match]:
     matches = {}

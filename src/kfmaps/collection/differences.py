@@ -103,10 +103,10 @@ def limit_shape(
             neighbours[row[target]].append((row[source], C[:k, :k]))
             # Backwards by the regularised inverse, since the transpose would invert a stretch.
             neighbours[row[source]].append((row[target], np.linalg.pinv(C[:k, :k], rcond=0.2)))
-    Y = _normalised(latent[members])
+    Y = _normalize(latent[members])
     for _ in range(30):  # iterations of the latent maps
         means = [np.mean([C @ Y[u] for u, C in near], axis=0) if near else Y[v] for v, near in enumerate(neighbours)]
-        Y = _normalised((Y + np.stack(means)) / 2)
+        Y = _normalize((Y + np.stack(means)) / 2)
     areas = (np.swapaxes(Y, 1, 2) @ Y).mean(axis=0)
     gradients = (np.swapaxes(Y, 1, 2) @ (values[:, :, None] * Y)).mean(axis=0)
     means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
@@ -142,7 +142,7 @@ def component_limit_shapes(
     return tuple(limit_shape(sync.latent, maps, eigenvalues, size, own) for own in members if len(own) > 2)
 
 
-def _normalised(maps: np.ndarray) -> np.ndarray:
+def _normalize(maps: np.ndarray) -> np.ndarray:
     """Return the maps scaled such that the mean of ``Y_vᵀ Y_v`` is the identity."""
     areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
     values, functions = np.linalg.eigh(areas)

@@ -39,7 +39,7 @@ def generalized_procrustes(points: np.ndarray) -> Procrustes:
     filled, aligned = points.copy(), points
     tolerance = 1e-12  # relative change of the consensus at which the rounds end
     for _ in range(MAX_ROUNDS):
-        aligned = np.stack([_aligned(one, present, consensus) for one, present in zip(points, is_present, strict=True)])
+        aligned = np.stack([_align(one, present, consensus) for one, present in zip(points, is_present, strict=True)])
         new = _unit(aligned.mean(axis=0))
         change = np.abs(new - consensus).max()
         consensus = new
@@ -76,7 +76,7 @@ def _unit(points: np.ndarray) -> np.ndarray:
     return centred / np.sqrt((centred**2).sum())
 
 
-def _aligned(points: np.ndarray, present: np.ndarray, consensus: np.ndarray) -> np.ndarray:
+def _align(points: np.ndarray, present: np.ndarray, consensus: np.ndarray) -> np.ndarray:
     """Return one specimen rotated to the consensus, of centroid size 1, with missing landmarks of the consensus."""
     turn, scale, shift = similarity(points[present], consensus[present])
     if present.all():

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, check, refuse, shown
+from kfmaps._arrays import KfmapsWarning, check, printable, refuse
 from kfmaps.geometry.connectivity import boundary_edges, component_labels
 from kfmaps.geometry.point_cloud import cloud_areas
 
@@ -192,5 +192,5 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
     loose = int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum())
     for count, what in ((flat, "faces without area"), (loose, "vertices that no face uses")):
         if count:
-            warnings.warn(f"{shown(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
+            warnings.warn(f"{printable(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
     return mesh

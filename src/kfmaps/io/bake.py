@@ -13,7 +13,7 @@ from kfmaps._arrays import KfmapsWarning, index_ranges, refuse
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, Picture, bytes_of
+from kfmaps.io.record import MeshFile, Picture, to_bytes
 
 _SMALLEST, _LARGEST = 1024, 4096
 """Bounds of the longer side of a baked picture, which is that of the source's unless a size is given."""
@@ -45,7 +45,7 @@ def encode_png(pixels: np.ndarray) -> Picture:
     from PIL import Image
 
     buffer = io.BytesIO()
-    Image.fromarray(pixels if pixels.dtype == np.uint8 else bytes_of(pixels)).save(buffer, "png")
+    Image.fromarray(pixels if pixels.dtype == np.uint8 else to_bytes(pixels)).save(buffer, "png")
     return Picture(buffer.getvalue(), "image/png")
 
 
@@ -217,7 +217,7 @@ def _bake(
 
     is_uncovered = ~covered.reshape(height, width)
     nearest: Any = distance_transform_edt(is_uncovered, return_distances=False, return_indices=True)
-    return encode_png(bytes_of(picture[nearest[0], nearest[1]]))
+    return encode_png(to_bytes(picture[nearest[0], nearest[1]]))
 
 
 def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
@@ -253,13 +253,13 @@ def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
     return place[:, None] + np.take_along_axis(triangles, order[:, :, None], axis=1), int(top + row_height)
 
 
-def _resized(pixels: np.ndarray, size: int) -> np.ndarray:
+def _resize(pixels: np.ndarray, size: int) -> np.ndarray:
     """Return a picture scaled so that its longer side has ``size`` texels."""
     from PIL import Image
 
     height, width = pixels.shape[:2]
     h, w = (max(1, round(side * size / max(height, width))) for side in (height, width))
-    image = Image.fromarray(bytes_of(pixels)).resize((w, h), Image.Resampling.BILINEAR)
+    image = Image.fromarray(to_bytes(pixels)).resize((w, h), Image.Resampling.BILINEAR)
     return np.asarray(image) / 255.0
 
 
@@ -285,7 +285,7 @@ def transfer_texture(
     size = size or int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
     if own_atlas:
         return replace(target, picture=_bake(source, uv_map, pixels, target.corner_uv, np.zeros((size, size, 3))))
-    pixels = _resized(pixels, size)
+    pixels = _resize(pixels, size)
     if edges is None or not uv_map.torn.any():
         return replace(textured, picture=encode_png(pixels))
     height, width = pixels.shape[:2]

@@ -83,14 +83,14 @@ def write_textured(
     image = None if picture is None else picture_in(read_bytes(picture))
     if picture is not None and image is None:
         raise refuse(f"picture {picture}", "a PNG or JPEG file", "another", "convert it")
-    result = textured(source, target, target_to_source, image, size)
+    result = with_source_texture(source, target, target_to_source, image, size)
     if suffix == ".glb":
         write_bytes(path, format_glb(transfer_character(source, result, target_to_source)), force)
         return [path]
     return _write_obj(path, result, force)
 
 
-def textured(
+def with_source_texture(
     source: MeshFile,
     target: MeshFile,
     target_to_source: np.ndarray | Match,

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from kfmaps._records import JsonObject
 from kfmaps.geometry.mesh import vertex_normals
-from kfmaps.io.record import MeshFile, Skin, bytes_of
+from kfmaps.io.record import MeshFile, Skin, to_bytes
 
 _FLOAT, _BYTE, _SHORT, _INT = 5126, 5121, 5123, 5125
 _ARRAY, _ELEMENT = 34962, 34963
@@ -74,7 +74,7 @@ def format_glb(shape: MeshFile) -> bytes:
         attributes["NORMAL"] = chunks.array(normals[rows].astype("<f4"), _FLOAT, "VEC3")
     if colors is not None:
         linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
-        four = np.hstack([bytes_of(linear), np.full((len(colors), 1), 255, dtype=np.uint8)])
+        four = np.hstack([to_bytes(linear), np.full((len(colors), 1), 255, dtype=np.uint8)])
         attributes["COLOR_0"] = chunks.array(four[rows], _BYTE, "VEC4", normalized=True)
     primitive: JsonObject = {"attributes": attributes, "material": 0}
     if len(faces):
@@ -118,7 +118,7 @@ def _nodes(skin: Skin | None, chunks: _Chunks) -> JsonObject:
     nodes: list[JsonObject] = [{"mesh": 0, "skin": 0}]
     for j, (name, matrix) in enumerate(zip(skin.names, local, strict=True)):
         children = (1 + np.flatnonzero(skin.parents == j)).tolist()
-        nodes.append({"name": name, **_placed(matrix), **({"children": children} if children else {})})
+        nodes.append({"name": name, **_node_transform(matrix), **({"children": children} if children else {})})
     binds = chunks.array(np.linalg.pinv(skin.matrices).transpose(0, 2, 1).astype("<f4"), _FLOAT, "MAT4", None)
     roots = (1 + np.flatnonzero(skin.parents < 0)).tolist()
     joints = list(range(1, len(nodes)))
@@ -126,7 +126,7 @@ def _nodes(skin: Skin | None, chunks: _Chunks) -> JsonObject:
     return {"scenes": [{"nodes": [0, *roots]}], "nodes": nodes, "skins": skins}
 
 
-def _placed(matrix: np.ndarray) -> JsonObject:
+def _node_transform(matrix: np.ndarray) -> JsonObject:
     """Return a node's translation, rotation and scale, which animations need; its matrix where there is shear."""
     scale = np.linalg.norm(matrix[:3, :3], axis=0) * np.sign(np.linalg.det(matrix[:3, :3]))
     rotation = matrix[:3, :3] / np.where(scale == 0, 1, scale)

@@ -16,7 +16,7 @@ from kfmaps._memory import check_memory
 from kfmaps._records import JsonObject
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, Picture, Skin, picture_in
-from kfmaps.io.text import REPAIR, beside, complete_or_refuse, read_bytes
+from kfmaps.io.text import REPAIR, complete_or_refuse, read_bytes, relative_file
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _FLOAT, _UNSIGNED = 5126, {5121, 5123, 5125}
@@ -61,7 +61,7 @@ def buffer_files(data: bytes, name: str) -> list[Path]:
     with complete_or_refuse(name, _WHOLE):
         tree, _ = _split(data, name)
         uris = [buffer.get("uri") for buffer in tree.get("buffers", [])]
-        return [_beside(uri, name) for uri in uris if uri is not None and not uri.startswith("data:")]
+        return [_relative_file(uri, name) for uri in uris if uri is not None and not uri.startswith("data:")]
 
 
 def _split(data: bytes, name: str) -> tuple[JsonObject, bytes | None]:
@@ -84,9 +84,9 @@ def _split(data: bytes, name: str) -> tuple[JsonObject, bytes | None]:
     return tree, binary
 
 
-def _beside(uri: str, name: str) -> Path:
+def _relative_file(uri: str, name: str) -> Path:
     """Return the file of a relative address, which must lie in the folder of ``name`` or below it."""
-    path = beside(unquote(uri), name)
+    path = relative_file(unquote(uri), name)
     if path is None:
         raise refuse(name, "numbers in a file beside it", f"the address {uri[:60]!r}", "export it as .glb")
     return path
@@ -123,7 +123,7 @@ class _Scene:
         """Return the bytes that an address holds itself, or those of the file that it names."""
         if uri.startswith("data:"):
             return base64.b64decode(uri.partition(",")[2], validate=True)
-        return read_bytes(_beside(uri, self.name))
+        return read_bytes(_relative_file(uri, self.name))
 
     def _check_extensions(self) -> None:
         """Refuse a file whose numbers cannot be read without an extension."""
@@ -208,14 +208,14 @@ class _Scene:
         for part in parts:
             vertices = self.numbers(part.attributes["POSITION"])
             corners = self._triangles(part, len(vertices))
-            joint_weights, matrix = self._skinned(part, joints, len(vertices))
+            joint_weights, matrix = self._skin_part(part, joints, len(vertices))
             linear = matrix[..., :3, :3]
             is_identity = np.array_equal(matrix, np.eye(4))
-            places.append(vertices if is_identity else _turned(linear, vertices) + matrix[..., :3, 3])
+            places.append(vertices if is_identity else _transform(linear, vertices) + matrix[..., :3, 3])
             is_mirrored = np.linalg.det(linear.reshape(-1, 3, 3).mean(axis=0)) < 0
             faces.append((corners[:, ::-1] if is_mirrored else corners) + n)
             weights.append(joint_weights)
-            morphs.append({title: _turned(linear, offsets) for title, offsets in self._morphs(part, len(vertices))})
+            morphs.append({title: _transform(linear, offsets) for title, offsets in self._morphs(part, len(vertices))})
             for title, rows, columns in (("COLOR_0", colors, 3), ("TEXCOORD_0", uv, 2)):
                 if title in part.attributes:
                     rows.append(self._attribute(part.attributes, title, len(vertices), columns))
@@ -255,7 +255,7 @@ class _Scene:
             raise refuse(self.name, "joints that are nodes of the scene", "others", REPAIR)
         return joints
 
-    def _skinned(self, part: _Part, joints: list[int], n: int) -> tuple[np.ndarray, np.ndarray]:
+    def _skin_part(self, part: _Part, joints: list[int], n: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the weights of each vertex for ``joints``, (n, j), and its matrix, (4, 4) or (n, 4, 4).
 
         Joints alone place a vertex that follows them; the node of the part does not count.
@@ -336,7 +336,7 @@ class _Scene:
         image = self._one("images", number)
         uri = image.get("uri")
         if uri is not None:
-            exists = uri.startswith("data:") or _beside(uri, self.name).is_file()
+            exists = uri.startswith("data:") or _relative_file(uri, self.name).is_file()
             return picture_in(self._content(uri)) if exists else None
         size = self._one("bufferViews", image["bufferView"])["byteLength"]
         return picture_in(self._block(image, np.dtype("u1"), 1, size).tobytes())
@@ -358,7 +358,7 @@ class _Scene:
         return corners.reshape(-1, 3)
 
 
-def _turned(linear: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _transform(linear: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Return points (n, 3) after a linear map, (3, 3) or one for each point, (n, 3, 3)."""
     return np.einsum("...ij,...j->...i", linear, points)
 

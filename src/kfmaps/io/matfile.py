@@ -34,7 +34,7 @@ def read_mat(data: bytes, name: str, limit: int = 1 << 31) -> dict[str, np.ndarr
     while at < len(data):
         kind, body, at = _element(data, at, name, top=True)
         if kind == _COMPRESSED:
-            body = _unpacked(body, name, unpacked, limit)
+            body = _unpack(body, name, unpacked, limit)
             unpacked += len(body)
             kind, body, _ = _element(body, 0, name)
         if kind != _MATRIX:
@@ -47,7 +47,7 @@ def read_mat(data: bytes, name: str, limit: int = 1 << 31) -> dict[str, np.ndarr
     return content
 
 
-def _unpacked(body: bytes, name: str, unpacked: float, limit: int) -> bytes:
+def _unpack(body: bytes, name: str, unpacked: float, limit: int) -> bytes:
     """Unpack a compressed element, at most as many bytes as it declares, and with ``unpacked`` at most ``limit``."""
     stream = zlib.decompressobj()
     try:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, check, refuse, shown
+from kfmaps._arrays import KfmapsWarning, check, printable, refuse
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.geometry.topology import topology
@@ -18,7 +18,7 @@ from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.obj import format_obj, parse_obj
 from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
-from kfmaps.io.record import MeshFile, checked_colors
+from kfmaps.io.record import MeshFile, check_colors
 from kfmaps.io.stl import parse_stl
 from kfmaps.io.text import as_table, check_suffix, clean_text, complete_or_refuse, parse_rows, read_bytes
 from kfmaps.io.vtk import parse_vtk, parse_vtp
@@ -123,7 +123,7 @@ def _place_unplaced(content: MeshFile, name: str) -> MeshFile:
             return content
         vertices[v] = content.mesh.vertices[neighbours].mean(axis=0)
     message = f"vertices without a position (NaN): {is_unplaced.sum()}; put between neighbours, the numbering stays"
-    warnings.warn(f"{shown(name)}: {message}", KfmapsWarning, stacklevel=4)
+    warnings.warn(f"{printable(name)}: {message}", KfmapsWarning, stacklevel=4)
     return replace(content, mesh=Mesh(vertices, faces))
 
 
@@ -143,7 +143,7 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     ]
     message = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in oddities if count)
     if message:
-        warnings.warn(f"{shown(name)}: {message}. All is kept as it is.", KfmapsWarning, stacklevel=4)
+        warnings.warn(f"{printable(name)}: {message}. All is kept as it is.", KfmapsWarning, stacklevel=4)
 
 
 def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None, force: bool = False) -> None:
@@ -165,5 +165,5 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
     """
     check_is_mesh(mesh)
     writer = _WRITERS[check_suffix(path, _WRITERS, "output", "choose one of these")]
-    fractions = None if colors is None else checked_colors(colors, len(mesh.vertices))
+    fractions = None if colors is None else check_colors(colors, len(mesh.vertices))
     write_bytes(path, writer(MeshFile(mesh, fractions)), force)

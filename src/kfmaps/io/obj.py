@@ -15,13 +15,13 @@ from kfmaps.io.text import (
     REPAIR,
     Rows,
     as_table,
-    beside,
     check_lines,
     clean_text,
     is_number,
     parse_rows,
     quoted,
     read_bytes,
+    relative_file,
     split_words,
     whole_numbers,
 )
@@ -197,7 +197,7 @@ def _libraries(rest: str, name: str) -> list[Path]:
 
 def _file(address: str, name: str) -> Path | None:
     """Return the file of a relative name in the folder of ``name`` or below it; ``None`` where there is none."""
-    path = beside(address.replace("\\", "/"), name)
+    path = relative_file(address.replace("\\", "/"), name)
     return path if path is not None and path.is_file() and path.stat().st_size else None
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from kfmaps._arrays import index_ranges, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
+from kfmaps.io.record import MeshFile, fan, to_bytes, unit_colors
 from kfmaps.io.text import REPAIR, Rows, as_table, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
@@ -63,7 +63,7 @@ def format_off(shape: MeshFile) -> bytes:
     vertices, faces = shape.mesh.vertices, shape.mesh.faces
     lines = [f"{x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
     if shape.colors is not None:
-        tints = (f" {r} {g} {b} 255" for r, g, b in bytes_of(shape.colors).tolist())
+        tints = (f" {r} {g} {b} 255" for r, g, b in to_bytes(shape.colors).tolist())
         lines = [line + tint for line, tint in zip(lines, tints, strict=True)]
     lines += [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]
     head = f"{'OFF' if shape.colors is None else 'COFF'}\n{len(vertices)} {len(faces)} 0\n"

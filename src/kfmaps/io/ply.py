@@ -10,7 +10,7 @@ import numpy as np
 
 from kfmaps._arrays import index_ranges, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
+from kfmaps.io.record import MeshFile, fan, to_bytes, unit_colors
 from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 
@@ -263,7 +263,7 @@ def format_ply(shape: MeshFile) -> bytes:
         [(axis, "<f8", "double", x) for axis, x in zip("xyz", shape.mesh.vertices.T, strict=True)],
     )
     if shape.colors is not None:
-        columns += [(tint, "u1", "uchar", x) for tint, x in zip(_COLORS[0], bytes_of(shape.colors).T, strict=True)]
+        columns += [(tint, "u1", "uchar", x) for tint, x in zip(_COLORS[0], to_bytes(shape.colors).T, strict=True)]
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
     header += [f"property {kind} {title}" for title, _, kind, _ in columns]
     header += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]

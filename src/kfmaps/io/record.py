@@ -112,7 +112,7 @@ def unit_colors(colors: np.ndarray) -> np.ndarray:
     return np.clip(colors[:, :3] / (255.0 if colors.max(initial=0.0) > 1 else 1.0), 0.0, 1.0)
 
 
-def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
+def check_colors(colors: np.ndarray, n: int) -> np.ndarray:
     """Return colours as :func:`kfmaps.write_mesh` accepts them as (n, 3) float64 from 0 to 1."""
     colors = np.asarray(colors)
     colors = colors[:, :3] if colors.shape[1:] == (4,) else colors
@@ -123,6 +123,6 @@ def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
     return colors.astype(np.float64) / high
 
 
-def bytes_of(colors: np.ndarray) -> np.ndarray:
+def to_bytes(colors: np.ndarray) -> np.ndarray:
     """Return fractions from 0 to 1 as the nearest whole numbers from 0 to 255."""
     return np.rint(colors * 255).astype(np.uint8)

@@ -100,7 +100,7 @@ def complete_or_refuse(name: str, expected: str) -> Iterator[None]:
         raise refuse(name, expected, got, REPAIR) from error
 
 
-def beside(address: str, name: str) -> Path | None:
+def relative_file(address: str, name: str) -> Path | None:
     """Return the file of a relative address in the file ``name``; ``None`` where it lies outside the folder."""
     path = PurePosixPath(address)
     outside = not path.parts or path.is_absolute() or ".." in path.parts or ":" in path.parts[0]

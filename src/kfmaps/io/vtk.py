@@ -144,7 +144,7 @@ def parse_vtp(data: bytes, name: str) -> MeshFile:
         order = ">" if root.get("byte_order") == "BigEndian" else "<"
         size = np.dtype(order + TYPES[root.get("header_type", "UInt32")])
         is_raw = raw and element.get("format") == "appended"
-        content = _unpacked(block, size, is_raw, root.get("compressor") is not None, name)
+        content = _unpack(block, size, is_raw, root.get("compressor") is not None, name)
         return np.frombuffer(content, order + TYPES[element.get("type", "")])
 
     points, corners, sizes, count = [], [], [], 0
@@ -161,7 +161,7 @@ def parse_vtp(data: bytes, name: str) -> MeshFile:
     return _mesh(np.concatenate(points), np.concatenate(corners), np.concatenate(sizes), name)
 
 
-def _unpacked(block: bytes, size: np.dtype, is_raw: bool, is_compressed: bool, name: str) -> bytes:
+def _unpack(block: bytes, size: np.dtype, is_raw: bool, is_compressed: bool, name: str) -> bytes:
     """Return the bytes of an array: a head of ``size`` numbers and the content, in base64 unless ``is_raw``."""
     width = size.itemsize
 

@@ -118,11 +118,11 @@ def differentiable_minimum(energy: Energy, solver: CG) -> torch.Tensor:
     """
     with torch.no_grad():
         precondition = sylvester(energy)
-        C = _solved(energy, energy.rhs(), solver, precondition, "map")
+        C = _solve(energy, energy.rhs(), solver, precondition, "map")
 
     def inverse(gradient: torch.Tensor) -> torch.Tensor:
         with torch.no_grad():
-            return _solved(energy, gradient, solver, precondition, "derivative")
+            return _solve(energy, gradient, solver, precondition, "derivative")
 
     if not torch.is_grad_enabled():
         return C
@@ -130,7 +130,7 @@ def differentiable_minimum(energy: Energy, solver: CG) -> torch.Tensor:
     return implicit(energy.rhs() - energy.apply(C), C, inverse)
 
 
-def _solved(energy: Energy, right: torch.Tensor, solver: CG, precondition: Operator, name: str) -> torch.Tensor:
+def _solve(energy: Energy, right: torch.Tensor, solver: CG, precondition: Operator, name: str) -> torch.Tensor:
     """Return the solution of ``A(C) = right``."""
     solution = solve(energy.apply, right, solver, None, precondition)
     if solution.status == "breakdown" and not np.isclose(solution.residuals[-1], 0.0):

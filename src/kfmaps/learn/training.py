@@ -155,7 +155,7 @@ class _Run:
         try:
             held_out = self.judge(loss)
         except (NotConverged, InvalidInput, RuntimeError) as error:
-            raise _stopped(error, "held out", state) from error
+            raise _failure(error, "held out", state) from error
         last = Epoch(number, loss, held_out, time.perf_counter() - self.begun)
         now = self.parameters()
         best = now if held_out < state.best_epoch.held_out else state.best
@@ -177,7 +177,7 @@ class _Run:
                 total += float(loss.detach())
                 _check_finite(self.model, total)
             except (NotConverged, InvalidInput, RuntimeError) as error:
-                raise _stopped(error, pair.name, state) from error
+                raise _failure(error, pair.name, state) from error
         self.optimizer.step()
         return total
 
@@ -217,7 +217,7 @@ def _check_finite(model: Model, loss: float) -> None:
         raise NotConverged(f"NaN or infinity in {where}")
 
 
-def _stopped(error: Exception, name: str, state: State) -> NotConverged:
+def _failure(error: Exception, name: str, state: State) -> NotConverged:
     got = str(error).splitlines()[0]
     return NotConverged(
         f"learning: expected finite numbers, got {got} at the pair {name}, epoch {state.history[-1].number + 1}. "

@@ -128,7 +128,7 @@ def following_view(source_view: View, source: Mesh, target: Mesh, target_to_sour
     confuses back and front.
     """
     rotation = rotation_between(source, target, target_to_source)
-    return source_view if rotation is None else _turned(source_view, rotation)
+    return source_view if rotation is None else _rotate_view(source_view, rotation)
 
 
 def true_views(
@@ -142,10 +142,10 @@ def true_views(
     """
     view = source_view or automatic_view(source)
     rotation, correlation = fit_rotation(source.vertices[truth_s], target.vertices[truth_t])
-    return view, _turned(view, rotation) if correlation >= _MIN_CORRELATION and _is_turned(rotation) else view
+    return view, _rotate_view(view, rotation) if correlation >= _MIN_CORRELATION and _is_turned(rotation) else view
 
 
-def _turned(view: View, rotation: np.ndarray) -> View:
+def _rotate_view(view: View, rotation: np.ndarray) -> View:
     return View(rotation @ view.towards, rotation @ view.up)
 
 

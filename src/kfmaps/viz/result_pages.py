@@ -21,7 +21,7 @@ from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import MeshFile, check_map, projected_uv
 from kfmaps.io.bake import decode_picture
-from kfmaps.io.export import textured
+from kfmaps.io.export import with_source_texture
 from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import fit_rotation
@@ -138,8 +138,10 @@ def _textured(source: MeshFile, match: Match, target: Mesh) -> tuple[MeshFile, .
     if source.picture is None or len(source.mesh.faces) == 0 or len(target.faces) == 0:
         return ()
     size = _MAX_TEXELS if max(decode_picture(source.picture).shape) > _MAX_TEXELS else None
-    textured_source = textured(source, MeshFile(source.mesh), np.arange(len(source.mesh.vertices)), size=size)
-    return textured_source, textured(source, MeshFile(target), match, size=size)
+    textured_source = with_source_texture(
+        source, MeshFile(source.mesh), np.arange(len(source.mesh.vertices)), size=size
+    )
+    return textured_source, with_source_texture(source, MeshFile(target), match, size=size)
 
 
 def _texture_record(shape: MeshFile) -> dict[str, object]:

@@ -10,7 +10,7 @@ import typer
 from kfmaps._arrays import check_count, refuse
 from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
-from kfmaps.batch.layout import find_collection, listed_pairs
+from kfmaps.batch.layout import find_collection, read_pairs
 from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan
 from kfmaps.batch.progress import RunReport, log_to
 from kfmaps.batch.results import summarize
@@ -72,7 +72,7 @@ def batch(
     if graph is not None and pairs is not None:
         raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
     collection = find_collection(folder)
-    listed = [] if graph is not None else listed_pairs(collection, pairs)
+    listed = [] if graph is not None else read_pairs(collection, pairs)
     config = settings.config(Config())
     spec = RunSpec(config, seed, lines, landmark_files, identity)
     with RunReport(quiet or json) as report:

@@ -17,7 +17,7 @@ from kfmaps._records import JsonObject
 from kfmaps._threads import one_blas_thread
 from kfmaps.cli.options import Force, Json
 from kfmaps.cli.progress import Stages
-from kfmaps.cli.terminal import Terminal, print_json, report_files, say
+from kfmaps.cli.terminal import Terminal, print_json, print_line, report_files
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.config import Config
 from kfmaps.datasets import ExamplePair
@@ -58,7 +58,7 @@ def demo(
         paths = _write(write, shape, vertices, landmarks, seed, force)
         report_files(*paths, as_json=json)
         for path in () if json else paths:
-            say(str(path))
+            print_line(str(path))
         return
     picture_format(output)
     check_output(output, force)

@@ -9,7 +9,7 @@ import typer
 from rich.table import Table
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.cli.evaluation import Accuracy, assess, known_truth, part_accuracy, read_part_truth, write_curve
+from kfmaps.cli.evaluation import Accuracy, assess, part_accuracy, read_part_truth, read_truth, write_curve
 from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TruthLists
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.cli.words import UNIT, percent
@@ -63,7 +63,7 @@ def evaluate(
         whole, piece = (mesh_s, mesh_t) if part == "target" else (mesh_t, mesh_s)
         accuracy = part_accuracy(mesh_s, mesh_t, match, read_part_truth(truth_part, whole, piece), part)
     else:
-        known = known_truth(truth, n_s, n_t, symmetric=symmetric, identity=identity)
+        known = read_truth(truth, n_s, n_t, symmetric=symmetric, identity=identity)
         assert known is not None
         mesh_t = _target_mesh(target, match, map)
         check_map(match, n_s, None if mesh_t is None else len(mesh_t.vertices), str(map), partial=True)

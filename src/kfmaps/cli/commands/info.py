@@ -12,7 +12,7 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
-from kfmaps._arrays import InvalidInput, KfmapsWarning, shown
+from kfmaps._arrays import InvalidInput, KfmapsWarning, printable
 from kfmaps._records import JsonObject
 from kfmaps.cli.options import Json
 from kfmaps.cli.terminal import Terminal, print_json
@@ -103,7 +103,7 @@ def info(
 
 def _table(facts: JsonObject) -> Table:
     """A row for each fact about one file."""
-    table = Table(title=Text(shown(facts["file"])), show_header=False)
+    table = Table(title=Text(printable(facts["file"])), show_header=False)
     for name, value in _cells(facts).items():
         table.add_row(name, Text(value))
     return table
@@ -117,5 +117,5 @@ def _overview(files: list[JsonObject]) -> Table:
         table.add_column(name, justify="left" if name in ("file", "defects") else "right", overflow="fold")
     for file in files:
         cells = _cells(file)
-        table.add_row(Text(shown(file["file"])), *(cells.get(name, "").partition(" (")[0] for name in columns))
+        table.add_row(Text(printable(file["file"])), *(cells.get(name, "").partition(" (")[0] for name in columns))
     return table

@@ -119,7 +119,7 @@ def learn(
             "--training": {name: numbers[name] for name in numbers if name not in ("epochs", "patience", "seconds")},
             "settings": settings_text(config, comments=False),
         }
-        state = _continued(state_file, request) if stopped else None
+        state = _read_state(state_file, request) if stopped else None
 
         def write(state: State) -> None:
             best = replace(model.settings(state.best), fit_samples=requested.fit_samples)
@@ -223,7 +223,7 @@ def _preparation(
     return prepared
 
 
-def _continued(path: Path, request: JsonObject) -> State:
+def _read_state(path: Path, request: JsonObject) -> State:
     """Return the state that an earlier run with the same request left."""
     from kfmaps.learn import load
 

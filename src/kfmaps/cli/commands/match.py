@@ -13,7 +13,7 @@ import typer
 
 from kfmaps._arrays import KfmapsWarning, MissingDependency, check, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.cli.evaluation import assess, known_truth
+from kfmaps.cli.evaluation import assess, read_truth
 from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
 from kfmaps.cli.progress import Stages
 from kfmaps.cli.summary import table
@@ -26,7 +26,7 @@ from kfmaps.io.mapcontent import summarize_match
 from kfmaps.io.mapfile import check_format, with_files
 from kfmaps.io.meshes import read_shape_mesh
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.matching.match import match as matched
+from kfmaps.matching.match import match as find_map
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.settings import SettingsOptions, with_settings
 from kfmaps.shape import prepare_both
@@ -88,15 +88,15 @@ def match(
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
     check_match_memory(config, n_s, n_t, 0 if pairs is None else len(pairs))
     own_descriptors = None if descriptors is None else _own_descriptors(descriptors, meshes)
-    correspondences = known_truth(truth, n_s, n_t)
+    correspondences = read_truth(truth, n_s, n_t)
 
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet or json) as stages:
         names = (str(source), str(target))
-        shapes = prepare_both(*meshes, config, names, _renamed(stages, names))
+        shapes = prepare_both(*meshes, config, names, _with_short_names(stages, names))
         for side, shape in zip(_SIDES, shapes, strict=True):
             seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
-        result = matched(
+        result = find_map(
             shapes[0], shapes[1], config, landmarks=pairs, descriptors=own_descriptors, rng=seed, progress=stages
         )
         accuracy = None
@@ -123,7 +123,7 @@ def match(
         raise typer.Exit(UNSURE)
 
 
-def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
+def _with_short_names(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
     """Put "source" and "target" into the names of stages in place of files, whose paths may be long."""
     short_names = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(_SIDES), strict=True)}
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_positive, refuse
 from kfmaps.api import render
-from kfmaps.batch.page import error_curve_of
+from kfmaps.batch.page import mean_error_curve
 from kfmaps.batch.results import Result, all_results, summarize
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.work import map_path
@@ -128,7 +128,7 @@ def render_curves(
     for folder, name in zip(folders, names, strict=True):
         results = _results(folder)
         mean = percent(summarize(results)["error_mean"] or 0)
-        curve = error_curve_of(results, f"{name}, mean {mean} %")
+        curve = mean_error_curve(results, f"{name}, mean {mean} %")
         if curve is None:
             raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
         curves.append(curve)

@@ -9,7 +9,7 @@ import typer
 
 from kfmaps.api import map_page
 from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TargetMesh, TruthLists, UpAxis
-from kfmaps.cli.terminal import report_files, say
+from kfmaps.cli.terminal import print_line, report_files
 from kfmaps.io import check_output
 from kfmaps.io.atomic import write_text
 from kfmaps.viz.page import check_up
@@ -40,4 +40,4 @@ def view(
     path, has_opened = open_page(html)
     report_files(path, as_json=json)
     if not json:
-        say(str(path) if has_opened else f"no browser was found; open {path.as_uri()}")
+        print_line(str(path) if has_opened else f"no browser was found; open {path.as_uri()}")
