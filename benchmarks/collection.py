@@ -37,9 +37,9 @@ from kfmaps.batch.results import BAD, Result
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import PairTask, load_prepared, map_path, true_vertices
-from kfmaps.cli.evaluation import assess
 from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
+from kfmaps.evaluation import assess
 from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.coarsen import coarsen

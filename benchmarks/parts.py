@@ -34,7 +34,7 @@ from pathlib import Path
 import numpy as np
 
 import kfmaps
-from kfmaps.cli.evaluation import PartTruth, part_accuracy, read_part_truth
+from kfmaps.evaluation import PartTruth, part_accuracy, read_part_truth
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points

@@ -30,9 +30,9 @@ from scipy.special import expit
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.cli.evaluation import read_part_truth
 from kfmaps.config import Partial
 from kfmaps.datasets import largest_piece
+from kfmaps.evaluation import read_part_truth
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.matching.partial.candidates import PartCandidate, compare_alternatives, make_candidate, margin

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 import style
 from experiment import Options, Result, main
 from kfmaps._arrays import KfmapsWarning
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import style
 from experiment import Options, Result, main
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.config import Config
 from kfmaps.kernels.kernels import Gaussian, Tanh
 from methods import literal

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 import style
 from experiment import Options, Result, main
 from intervals import difference, ratio
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.config import Config
 from kfmaps.kernels.kernels import Linear
 from methods import converged, literal, no17, no17_maxima, obcs12, obcs12_regularised, paper, recommended

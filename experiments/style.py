@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.viz.figures import percent_ticks
 
 # Okabe and Ito (2008).

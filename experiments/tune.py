@@ -19,7 +19,7 @@ import numpy as np
 from data_sets import DataSet, Pair
 from experiment import Options, options_parser, read_options, write_table
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.config import Config
 from kfmaps.io import read_text
 from kfmaps.settings import preset, read_settings, settings_text, with_assignments

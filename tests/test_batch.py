@@ -27,8 +27,8 @@ from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import count_attempts, map_path, match_pair, prepare_shape
-from kfmaps.cli.evaluation import Truth, assess
 from kfmaps.config import NystromConfig, Search
+from kfmaps.evaluation import Truth, assess
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers

@@ -10,6 +10,7 @@ import pytest
 
 from collecting import CONFIG, plan_of, touch
 from kfmaps._arrays import InvalidInput
+from kfmaps._texts import format_seconds
 from kfmaps.batch.cache import file_digest
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, find_collection, natural_key, read_pairs
@@ -18,7 +19,6 @@ from kfmaps.batch.progress import WorkLeft
 from kfmaps.batch.results import read_result
 from kfmaps.batch.run_spec import RunSpec, claim, read_run_spec
 from kfmaps.cli.options import line_numbers
-from kfmaps.cli.words import format_seconds
 from kfmaps.kernels.kernels import Linear
 
 

@@ -11,9 +11,9 @@ from PIL import Image
 from scipy.spatial import KDTree
 
 from chromium import NASTY, Browser, Keys, needs_browser
-from kfmaps.cli.evaluation import Truth
 from kfmaps.config import Config
 from kfmaps.datasets import ExamplePair
+from kfmaps.evaluation import Truth
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile

@@ -13,7 +13,7 @@ from matplotlib.image import imread
 
 from commandline import run, shapes
 from conftest import fibonacci_sphere
-from kfmaps.cli.evaluation import THRESHOLDS, Truth, assess
+from kfmaps.evaluation import THRESHOLDS, Truth, assess
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area, vertex_areas
 from kfmaps.io import save_map, write_mesh

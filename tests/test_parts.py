@@ -11,9 +11,9 @@ from conftest import blob
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps._progress import StageTimer
-from kfmaps.cli.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
 from kfmaps.datasets import largest_piece
+from kfmaps.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.geodesics import geodesic_distances

@@ -12,7 +12,7 @@ from commandline import run
 from kfmaps import datasets
 from kfmaps.batch.page import summary_page
 from kfmaps.batch.results import Result
-from kfmaps.cli.evaluation import PartTruth, _true_overlap
+from kfmaps.evaluation import PartTruth, _true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area, vertex_areas
 from kfmaps.io import load_map, save_map, write_mesh

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.cli.evaluation import Truth, assess
+from kfmaps._texts import VERDICTS, plural, probability_text, verdict_text
 from kfmaps.cli.summary import table
-from kfmaps.cli.words import VERDICTS, plural, probability_text, verdict_text
 from kfmaps.collection.repair import CyclePath, MapEvidence, Replacement
 from kfmaps.config import Config
 from kfmaps.datasets import sphere
+from kfmaps.evaluation import Truth, assess
 from kfmaps.kernels.transformed import Metric
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore

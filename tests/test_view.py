@@ -16,9 +16,9 @@ from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.cli.commands.view import view
-from kfmaps.cli.evaluation import Truth
 from kfmaps.config import Config
 from kfmaps.datasets import sphere
+from kfmaps.evaluation import Truth
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.evaluate import area_distortion

@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps._progress import Progress
-from kfmaps.cli.evaluation import Truth, check_truth, read_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
+from kfmaps.evaluation import Truth, check_truth, read_truth
 from kfmaps.fmap import evaluate
 from kfmaps.fmap.precise import PointMap
 from kfmaps.fmap.refine import Refined

@@ -17,6 +17,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps._texts import UNIT, format_seconds, percent, probability_text
 from kfmaps._threads import one_blas_thread
 from kfmaps.api import render
 from kfmaps.batch.consistent import DIFFERENCE_KINDS, ConsistentResult, ShapeStatistics, map_in_use
@@ -25,8 +26,7 @@ from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, describe_result, summarize, worst_first
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.work import PairTask, map_path, true_vertices
-from kfmaps.cli.evaluation import Truth
-from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
+from kfmaps.evaluation import Truth
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text

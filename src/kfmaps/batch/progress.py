@@ -13,9 +13,9 @@ from pathlib import Path
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
+from kfmaps._texts import format_seconds, plural
 from kfmaps.batch.results import Result, describe_result
 from kfmaps.cli.terminal import Terminal
-from kfmaps.cli.words import format_seconds, plural
 
 _LOG, _EVENTS = "run.log", "run.jsonl"
 _FIXED_VERTICES = 8000.0

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from kfmaps._records import JsonObject
+from kfmaps._texts import UNIT, percent, probability_text
 from kfmaps.batch.layout import Pair
-from kfmaps.cli.words import UNIT, percent, probability_text
 from kfmaps.io.atomic import csv_text, write_text
 
 FOLDER = "pairs"

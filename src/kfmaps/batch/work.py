@@ -23,8 +23,8 @@ from kfmaps.batch.jobs import MAX_DEATHS
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, read_truth, read_vertex_lists
 from kfmaps.config import Config
+from kfmaps.evaluation import Accuracy, Truth, assess, check_truth, read_truth, read_vertex_lists
 from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_vertex_numbers, save_map

@@ -13,8 +13,8 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from kfmaps._arrays import printable
+from kfmaps._texts import format_seconds
 from kfmaps.cli.terminal import Terminal
-from kfmaps.cli.words import format_seconds
 
 _REPEAT_SECONDS = 5.0
 """Least seconds between two lines of a stage that is repeated, as when many maps are tried."""

@@ -11,8 +11,8 @@ from rich.table import Table
 from rich.text import Text
 
 from kfmaps._arrays import printable
-from kfmaps.cli.evaluation import Accuracy
-from kfmaps.cli.words import UNIT, percent, probability_text, verdict_text
+from kfmaps._texts import UNIT, percent, probability_text, verdict_text
+from kfmaps.evaluation import Accuracy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.transformed import descriptor_width
 from kfmaps.matching.finish import low_confidence_area

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps._records import short_repr
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.fmap.evaluate import error_curve
 from kfmaps.viz.figures import TEXT, NotebookFigure, percent_ticks, style_axes
 

@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check, check_count, refuse
 from kfmaps._records import short_repr
-from kfmaps.cli.words import UNIT
+from kfmaps._texts import UNIT
 from kfmaps.fmap.evaluate import geodesic_errors, truth_from_pairs
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.cli.words import VERDICTS, verdict_text
+from kfmaps._texts import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.evaluate import area_distortion
 from kfmaps.geometry.mesh import Mesh, unit_area

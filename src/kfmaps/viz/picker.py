@@ -18,7 +18,7 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, NotConverged, refuse
 from kfmaps._progress import Progress
 from kfmaps._records import JsonObject
-from kfmaps.cli.words import plural
+from kfmaps._texts import plural
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fmap.confidence import local_confidence

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from rich.console import Console
 
 from kfmaps._records import JsonObject
-from kfmaps.cli.evaluation import Truth
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
+from kfmaps.evaluation import Truth
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps._texts import UNIT, percent, plural
 from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import find_collection, read_pairs
@@ -18,7 +19,6 @@ from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, line_numbers, meets
 from kfmaps.cli.terminal import print_json
-from kfmaps.cli.words import UNIT, percent, plural
 from kfmaps.config import Config
 from kfmaps.io.atomic import write_text
 from kfmaps.settings import SettingsOptions, settings_text, with_settings

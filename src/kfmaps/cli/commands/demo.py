@@ -14,11 +14,11 @@ from rich.table import Table
 from kfmaps import datasets
 from kfmaps._arrays import refuse
 from kfmaps._records import JsonObject
+from kfmaps._texts import UNIT, percent
 from kfmaps._threads import one_blas_thread
 from kfmaps.cli.options import Force, Json
 from kfmaps.cli.progress import Stages
 from kfmaps.cli.terminal import Terminal, print_json, print_line, report_files
-from kfmaps.cli.words import UNIT, percent
 from kfmaps.config import Config
 from kfmaps.datasets import ExamplePair
 from kfmaps.fmap.evaluate import geodesic_errors

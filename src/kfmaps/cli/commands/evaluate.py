@@ -9,10 +9,10 @@ import typer
 from rich.table import Table
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.cli.evaluation import Accuracy, assess, part_accuracy, read_part_truth, read_truth, write_curve
+from kfmaps._texts import UNIT, percent
 from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TruthLists
 from kfmaps.cli.terminal import Terminal, print_json
-from kfmaps.cli.words import UNIT, percent
+from kfmaps.evaluation import Accuracy, assess, part_accuracy, read_part_truth, read_truth, write_curve
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, check_output, load_map
 from kfmaps.io.mapfile import map_mesh

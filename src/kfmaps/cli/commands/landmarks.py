@@ -15,6 +15,7 @@ import typer
 from typer.core import TyperGroup
 
 from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps._texts import plural
 from kfmaps.batch.landmark_tables import read_corrections, write_local_differences, write_study
 from kfmaps.batch.layout import find_collection
 from kfmaps.batch.plan import make_plan
@@ -39,7 +40,6 @@ from kfmaps.batch.transfer_landmarks import (
 from kfmaps.cli.commands.batch import FAILED, INTERRUPTED, describe_plan, parse_workers
 from kfmaps.cli.options import Json, Quiet, UpAxis, Workers
 from kfmaps.cli.terminal import print_json
-from kfmaps.cli.words import plural
 from kfmaps.config import Config
 from kfmaps.io import check_output, read_mesh
 from kfmaps.io.landmark_files import landmark_suffix

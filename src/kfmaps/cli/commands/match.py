@@ -13,13 +13,13 @@ import typer
 
 from kfmaps._arrays import KfmapsWarning, MissingDependency, check, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.cli.evaluation import assess, read_truth
 from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
 from kfmaps.cli.progress import Stages
 from kfmaps.cli.summary import table
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
+from kfmaps.evaluation import assess, read_truth
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_output, read_values, save_map
 from kfmaps.io.mapcontent import summarize_match

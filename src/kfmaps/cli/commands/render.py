@@ -10,6 +10,7 @@ import typer
 from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_positive, refuse
+from kfmaps._texts import UNIT, percent
 from kfmaps.api import render
 from kfmaps.batch.page import mean_error_curve
 from kfmaps.batch.results import Result, all_results, summarize
@@ -17,7 +18,6 @@ from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.work import map_path
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh, TruthLists
 from kfmaps.cli.terminal import report_files
-from kfmaps.cli.words import UNIT, percent
 from kfmaps.io import atomic_output, check_map, check_output, load_map
 from kfmaps.io.mapfile import map_mesh
 from kfmaps.viz import Panel, View, curves_figure, grid_figure, picture_format, save_figure, view_from
