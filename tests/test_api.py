@@ -233,10 +233,7 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
         (lambda: kfmaps.laplace_basis("a.off", 5), "mesh: expected a Mesh, got str"),  # pyright: ignore
         (lambda: kfmaps.geodesic_distances((V, F), [0]), "mesh: expected a Mesh, got tuple"),  # pyright: ignore
         (lambda: kfmaps.geodesic_errors("no.off", ORDER, ORDER), "no.off: expected a file"),
-        (
-            lambda: kfmaps.geodesic_errors(MESH, ORDER, ORDER[:5]),
-            "predicted and true vertices: expected lists of",
-        ),
+        (lambda: kfmaps.geodesic_errors(MESH, ORDER, ORDER[:5]), "predicted and true vertices: expected lists of"),
         (lambda: kfmaps.geodesic_errors(MESH, ORDER, ([0], [200])), "the truth's target vertices"),
         (lambda: kfmaps.transfer(V, vertex_point_map(ORDER, MESH)), "a PointMap alone. Give source="),
         (lambda: kfmaps.render(vertex_point_map(ORDER, MESH), Mesh(V), OTHER), "map"),
@@ -290,10 +287,7 @@ def test_zoomout_grows_a_map_to_all_functions(shuffled: kfmaps.Match) -> None:
     same = kfmaps.ZoomOut(start=20, stop=60, step=5)(C, a, b)
     np.testing.assert_array_equal(found.functional_map, same.functional_map)
     assert kfmaps.zoomout(C, a, b, start=10, stop=30, step=10).history == (10, 20, 30)
-    for wrong, part in (
-        ((C, MESH, b), "source: expected a Basis"),
-        ((np.eye(61), a, b), "at most 60 × 60"),
-    ):
+    for wrong, part in (((C, MESH, b), "source: expected a Basis"), ((np.eye(61), a, b), "at most 60 × 60")):
         with pytest.raises(InvalidInput, match=part):
             kfmaps.zoomout(*wrong)  # pyright: ignore
 

@@ -14,14 +14,7 @@ from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_coll
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch import cache, work
-from kfmaps.batch.cache import (
-    _samples_path,
-    cached_samples,
-    file_digest,
-    load_record,
-    save_record,
-    shape_key,
-)
+from kfmaps.batch.cache import _samples_path, cached_samples, file_digest, load_record, save_record, shape_key
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import summarize

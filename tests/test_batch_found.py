@@ -73,28 +73,22 @@ def test_choices_of_pairs(tmp_path: Path) -> None:
     assert read_pairs(found, file) == [Pair("a", "b"), Pair("b", "a")]
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [("a", "line 1.*got 1"), ("\na b c", "line 2.*got 3"), ("a x", "line 1.*'x'"), ("# no\n", "no pairs")],
-)
-def test_bad_lists_of_pairs(tmp_path: Path, text: str, message: str) -> None:
-    for name in ("a", "b"):
-        touch(tmp_path / f"{name}.off")
-    with pytest.raises(InvalidInput, match=message):
-        read_pairs(find_collection(tmp_path), touch(tmp_path / "list.txt", text))
-
-
 def test_bad_choices_of_pairs(tmp_path: Path) -> None:
     touch(tmp_path / "a.off")
-    found = find_collection(tmp_path)
+    found, spec = find_collection(tmp_path), RunSpec(CONFIG)
     for file, message in ((None, "test_pairs.txt"), (tmp_path / "none.txt", "nothing there")):
         with pytest.raises(InvalidInput, match=message):
             read_pairs(found, file)
     with pytest.raises(InvalidInput, match="two shapes"):
-        graph_pairs(found, RunSpec(CONFIG), tmp_path / "out", "both", WorkerPool())
+        graph_pairs(found, spec, tmp_path / "out", "both", WorkerPool())
     touch(tmp_path / "b.off")
+    found = find_collection(tmp_path)
     with pytest.raises(InvalidInput, match="'x'"):
-        graph_pairs(find_collection(tmp_path), RunSpec(CONFIG), tmp_path / "out", "star:x", WorkerPool())
+        graph_pairs(found, spec, tmp_path / "out", "star:x", WorkerPool())
+    lists = {"a": "line 1.*got 1", "\na b c": "line 2.*got 3", "a x": "line 1.*'x'", "# no\n": "no pairs"}
+    for text, message in lists.items():
+        with pytest.raises(InvalidInput, match=message):
+            read_pairs(found, touch(tmp_path / "list.txt", text))
 
 
 def test_keys_tell_pairs_apart(tmp_path: Path) -> None:
@@ -144,16 +138,13 @@ def left(
     return WorkLeft(dict(enumerate(sizes)), finished=finished).remaining(begun, workers)
 
 
-def test_remaining_time_of_even_work_is_exact() -> None:
+def test_remaining_time_is_exact_for_even_work_and_follows_sizes() -> None:
+    """Four times the size and fixed part takes four times as long; earlier runs count until something is measured."""
     assert left([], [], {}, 4) == 0
     assert left([], [1000], {}, 4) is None
     assert left([(1000, 3.0), (1000, 5.0)], [1000] * 8, {}, 4) == pytest.approx(8)
     assert left([(1000, 4.0)], [1000] * 5, {0: 1.0, 1: 1.5}, 2) == pytest.approx(10.5)
     assert left([(1000, 4.0)], [1000], {0: 3.9}, 4) == pytest.approx(2)  # it may be a slow one
-
-
-def test_remaining_time_follows_sizes() -> None:
-    """Four times the size and fixed part takes four times as long; earlier runs count until something is measured."""
     assert left([(2000, 5.0)], [32000], {}, 1) == pytest.approx(20)
     work = WorkLeft({0: 2000, 1: 2000, 2: 2000}, before=[(2000, 7.0)])
     assert work.remaining({}, 1) == pytest.approx(21)

@@ -82,13 +82,7 @@ def test_columns_of_which_nothing_is_known_are_left_out() -> None:
     assert "geodesic" not in page
     changed = [replace(some_results()[0], changed="alternative 1", why="<why>", error_before=0.4, agreement=0.99)]
     page = summary_page(
-        "c",
-        changed,
-        {},
-        {},
-        1,
-        pages={Pair("a", "b"): "pages/a-b.html"},
-        agreement={"doubted": ["<x> → y"]},
+        "c", changed, {}, {}, 1, pages={Pair("a", "b"): "pages/a-b.html"}, agreement={"doubted": ["<x> → y"]}
     )
     assert "Replaced maps" in page
     assert "&lt;why&gt;" in page

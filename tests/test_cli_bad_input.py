@@ -178,11 +178,7 @@ def test_existing_output_needs_force(made: types.SimpleNamespace) -> None:
     ],
 )
 def test_what_is_read_is_not_replaced(
-    made: types.SimpleNamespace,
-    words: tuple[str, ...],
-    read: str,
-    link: object,
-    monkeypatch: pytest.MonkeyPatch,
+    made: types.SimpleNamespace, words: tuple[str, ...], read: str, link: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(made.folder)
     write_vertex_numbers("m.txt", np.arange(100))
@@ -212,9 +208,7 @@ def test_demand(monkeypatch: pytest.MonkeyPatch) -> None:
         check_match_memory(config, 80_000, 80_000, 50)
     with pytest.raises(InvalidInput, match=r"got 80 GB for 500,000 descriptors of 20,000 points"):
         check_match_memory(
-            replace(Config.single_fit(), descriptors=DescriptorConfig(n_spectral=500_000, shot=False)),
-            80_000,
-            80_000,
+            replace(Config.single_fit(), descriptors=DescriptorConfig(n_spectral=500_000, shot=False)), 80_000, 80_000
         )
     check_match_memory(
         replace(Config.single_fit(), nystrom=NystromConfig(samples=10**9)), 1000, 1000

@@ -80,14 +80,12 @@ def test_near_pairs_join_all_and_none_is_the_only_way(count: int, each: int) -> 
     assert degree.min() >= min(each, count - 1)
 
 
-def test_near_pairs_of_two_clusters_are_joined_twice() -> None:
+def test_near_pairs_of_two_clusters_are_joined_twice_whatever_their_numbers() -> None:
     points = np.concatenate([np.zeros((4, 1)), np.full((4, 1), 10.0)]) + 0.01 * np.arange(8)[:, None]
     pairs = nearest_neighbor_graph(signature_distances(points), 2)
     across = [p for p in pairs if (p[0] < 4) != (p[1] < 4)]
     assert len(across) == 2
-
-
-def test_near_pairs_follow_the_numbers() -> None:
+    # They follow the numbers.
     points = np.random.default_rng(3).normal(size=(12, 4))
     order = np.random.default_rng(4).permutation(12)
     pairs = nearest_neighbor_graph(signature_distances(points))

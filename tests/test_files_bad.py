@@ -79,10 +79,7 @@ BAD_OFF = {
     "too few lines": (off(FOUR + "3 0 1 2\n"), "got 5 lines"),
     "too many lines": (off(FOUR + 3 * "3 0 1 2\n"), "got 7 lines"),
     "a word": (off(FOUR + "3 0 1 two\n3 0 1 2\n"), "line 7: expected numbers, got 'two'"),
-    "two coordinates": (
-        off(FOUR.replace("1 1 0", "1 1") + "3 0 1 2\n3 0 1 2\n"),
-        "5: expected 3 numbers a vertex",
-    ),
+    "two coordinates": (off(FOUR.replace("1 1 0", "1 1") + "3 0 1 2\n3 0 1 2\n"), "5: expected 3 numbers a vertex"),
     "a colour without C": (off(FOUR.replace("\n", " 1 0 0\n") + 2 * "3 0 1 2\n"), "3 numbers a vertex"),
     "NaN": (off(FOUR.replace("1 1 0", "1 nan 0") + 2 * "3 0 1 2\n"), "NaN or infinite"),
     "infinity": (off(FOUR.replace("1 1 0", "1 -inf 0") + 2 * "3 0 1 2\n"), "NaN or infinite"),
@@ -110,10 +107,7 @@ V = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\n"
 
 BAD_OBJ = {
     "zero": ("f 0 1 2", "line 5: expected numbers from 1 to 4"),
-    "out of range": (
-        "f 1 2 5",
-        "1 to 4, or negative ones counted back from the last, got 5",
-    ),
+    "out of range": ("f 1 2 5", "1 to 4, or negative ones counted back from the last, got 5"),
     "back beyond the first": ("f 1 2 -5", "got -5"),
     "an edge": ("f 1 2 3\nf 1 2", "line 6: expected a face with three corners or more, got 2"),
     "an empty face": ("f 1 2 3\nf", "three corners or more, got 0"),

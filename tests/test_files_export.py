@@ -13,14 +13,7 @@ from conftest import blob, corner_uv, fibonacci_sphere, known
 from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import (
-    MeshFile,
-    grid_picture,
-    projected_uv,
-    read_mesh_file,
-    write_colored,
-    write_textured,
-)
+from kfmaps.io import MeshFile, grid_picture, projected_uv, read_mesh_file, write_colored, write_textured
 from kfmaps.io.bake import transfer_uv
 
 

@@ -262,10 +262,7 @@ def accessor(tree: dict[str, Any], **more: Any) -> None:
         (lambda t: t.update(extensionsRequired=["KHR_draco_mesh_compression"]), "Export it without compression"),
         (lambda t: t.update(extensionsRequired=["EXT_mesh_gpu_instancing"]), "the extension EXT_mesh_gpu_instancing"),
         (lambda t: accessor(t, componentType=5123), "Export it unquantised"),
-        (
-            lambda t: accessor(t, count=3),
-            "part 0: expected corners of faces from 0 to 2, for it has 3 vertices",
-        ),
+        (lambda t: accessor(t, count=3), "part 0: expected corners of faces from 0 to 2, for it has 3 vertices"),
         (lambda t: accessor(t, count=10**9), "complete glTF 2.0 file"),
         (lambda t: t["accessors"][primitive(t)["indices"]].update(componentType=5126), "unsigned vertex numbers"),
         (lambda t: primitive(t).update(mode=6), "Export it as triangles"),

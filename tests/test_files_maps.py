@@ -238,18 +238,9 @@ def lying_npz() -> bytes:
         (npz(target_to_source=ONE * 1j), "an array of numbers"),
         (npz(target_to_source=ONE, functional_map=ONE), "functional_map: expected shape"),
         (npz(target_to_source=ONE, functional_map=np.full((2, 2), np.inf)), "functional_map: expected finite"),
-        (
-            npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_source=ONE),
-            "_source: expected shape (2)",
-        ),
-        (
-            npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_target=ONE),
-            "_target: expected shape (2)",
-        ),
-        (
-            npz(target_to_source=ONE, config="{}"),
-            "a map of this version of kfmaps, got an older one (with config)",
-        ),
+        (npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_source=ONE), "_source: expected shape (2)"),
+        (npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_target=ONE), "_target: expected shape (2)"),
+        (npz(target_to_source=ONE, config="{}"), "a map of this version of kfmaps, got an older one (with config)"),
         (npz(target_to_source=ONE, runners_up=ONE[None]), "got an older one (with runners_up). Match the shapes again"),
         (lying_npz(), "target_to_source.npy: expected data for shape"),
         (b"PK\3\4", "complete .npz file"),
@@ -310,10 +301,7 @@ HALF = np.full((4, 3), 0.5)
         ({"precise_faces": ONE + 1, "precise_weights": HALF}, "numbers with sum 1 in each row"),
         ({"precise_faces": ONE[1:] + 1, "precise_weights": 2 * HALF / 3}, "precise"),
         ({"raw_functional_map": np.zeros((2, 2, 2))}, "raw_functional_map: expected shape (any, any)"),
-        (
-            {"summary": '{"source_file": {"n_vertices": 2}}'},
-            "expected source vertices from 0 to 1, got",
-        ),
+        ({"summary": '{"source_file": {"n_vertices": 2}}'}, "expected source vertices from 0 to 1, got"),
         ({"summary": DEEP}, "summary: expected a summary as JSON"),
         ({"summary": "made on a Monday"}, "summary: expected a summary as JSON"),
         ({"summary": "[1]"}, "summary: expected the fields of a record, got [1]"),
@@ -323,10 +311,7 @@ HALF = np.full((4, 3), 0.5)
         ({"summary": '{"precise_map": {"faces": [1]}}'}, "precise_map.faces: expected a value, got none"),
         ({"summary": '{"score": 3}'}, ": score: expected the fields of a record"),
         ({"summary": '{"score": {"scores": [1, "a"]}}'}, ": score.scores: expected"),
-        (
-            {"summary": '{"registration": {"report": {"gap": 1}}}'},
-            "report.deformation_energy: expected a value",
-        ),
+        ({"summary": '{"registration": {"report": {"gap": 1}}}'}, "report.deformation_energy: expected a value"),
         ({"summary": '{"registration": {"report": {"reason": "x"}}}'}, "expected"),
     ],
 )

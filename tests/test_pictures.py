@@ -76,8 +76,7 @@ def test_light_comes_from_the_upper_left() -> None:
 def test_near_hides_far() -> None:
     near, far = ball(center=(0, 0, 2), radius=0.5), ball()
     both = Mesh(
-        np.concatenate([far.vertices, near.vertices]),
-        np.concatenate([far.faces, near.faces + len(far.vertices)]),
+        np.concatenate([far.vertices, near.vertices]), np.concatenate([far.faces, near.faces + len(far.vertices)])
     )
     colors = np.concatenate([painted(far, RED), painted(near, BLUE)])
     picture = drawn(both, colors, shading=False)

@@ -89,19 +89,13 @@ def test_a_collection_on_a_terminal_has_bars_and_tells_failures_above_them(
     assert "3/3 (1 failed)" not in told  # that is for files, which have no bars
 
 
-def test_nothing_is_said_when_all_is_quiet(capsys: pytest.CaptureFixture[str]) -> None:
-    with Stages(quiet=True) as stages:
-        stages("solve", 0.0)
-        stages("solve", 1.0)
-    assert capsys.readouterr().err == ""
-
-
-def test_short_stages_are_a_line_each(capsys: pytest.CaptureFixture[str]) -> None:
-    with Stages() as stages:
-        for name in ("descriptors", "solve"):
-            stages(name, 0.0)
-            stages(name, 1.0)
-    assert [line.partition(":")[0] for line in capsys.readouterr().err.splitlines()] == ["descriptors", "solve"]
+def test_short_stages_are_a_line_each_and_nothing_where_all_is_quiet(capsys: pytest.CaptureFixture[str]) -> None:
+    for quiet, said in ((True, []), (False, ["descriptors", "solve"])):
+        with Stages(quiet) as stages:
+            for name in ("descriptors", "solve"):
+                stages(name, 0.0)
+                stages(name, 1.0)
+        assert [line.partition(":")[0] for line in capsys.readouterr().err.splitlines()] == said
 
 
 def test_a_notebook_gets_bars_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -147,9 +147,6 @@ def test_every_setting_is_documented() -> None:
 def test_a_field_of_a_wrong_type_is_refused_at_once(field: str, value: Any) -> None:
     with pytest.raises(InvalidInput, match=f"^Config.{field}: expected "):
         replace(Config(), **{field: value})
-
-
-def test_a_refusal_says_what_to_write() -> None:
     with pytest.raises(InvalidInput, match=r"got 'gaussian'\. Write kernel=Gaussian\(\)"):
         Config(kernel="gaussian")  # pyright: ignore[reportArgumentType]
 

@@ -9,13 +9,7 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.collection.differences import (
-    component_limit_shapes,
-    components,
-    density,
-    limit_shape,
-    shape_distances,
-)
+from kfmaps.collection.differences import component_limit_shapes, components, density, limit_shape, shape_distances
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
 from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.basis import Basis
