@@ -38,7 +38,7 @@ from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.matching.partial.candidates import PartCandidate, compare_alternatives, make_candidate, margin
 from kfmaps.matching.partial.place_part import candidate_placements
 from kfmaps.matching.partial.samples import PartPair, part_samples
-from kfmaps.matching.partial.scale_search import SCALES, TRIALS, refine_placement
+from kfmaps.matching.partial.scale_search import SCALES, TRIALS, refine_placement, try_scales
 from kfmaps.matching.score import SCORE
 
 PAIRS = (
@@ -97,7 +97,8 @@ def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, PartCandi
     settings = Partial()
     sides = part_samples(unit_area(part), settings.samples), part_samples(unit_area(whole), settings.whole_samples)
     search = Search(PartPair(*sides), places)
-    rough, beams = candidate_placements(search.pair, [*SCALES, ratio], settings.candidates)
+    scales = [*SCALES, ratio]
+    rough, beams = candidate_placements(search.pair, try_scales(search.pair, scales), scales, settings.candidates)
     first = TRIALS[0]
     pool = [("relaxation" if one.params is first else "again", one) for one in rough]
     pool += [("beam", one) for one in beams]

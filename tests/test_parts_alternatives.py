@@ -176,8 +176,7 @@ def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(
     for one in found:
         one.registration = None
     results = {
-        "_likely_placements": [],
-        "compare_alternatives": found,
+        "_search_placements": found,
         "_register_fully": SimpleNamespace(vertices=np.eye(3)),
         "find_overlap": None,
         "margin": 1.0,

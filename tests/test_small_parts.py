@@ -132,6 +132,8 @@ def test_all_placements_of_small_parts_and_of_two_parts_in_one_unit_are_register
         raise StopIteration
 
     likely = SimpleNamespace(scale=1.0)
+    monkeypatch.setattr(place_part, "try_scales", lambda *_: [likely])
+    monkeypatch.setattr(place_part, "_clear_candidate", lambda *_: None)
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "make_candidate", lambda one, _pair: one)
     monkeypatch.setattr(place_part, "candidates_at_scale", candidates_at_scale)
@@ -159,6 +161,8 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
 
     seen: list[float] = []
     likely = [SimpleNamespace(scale=scale) for scale in scales]
+    monkeypatch.setattr(place_part, "try_scales", lambda *_: likely)
+    monkeypatch.setattr(place_part, "_clear_candidate", lambda *_: None)
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: likely)
     monkeypatch.setattr(
         place_part, "make_candidate", lambda one, _: seen.append(one.scale) or SimpleNamespace(registration=None)
@@ -169,3 +173,28 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
     with pytest.raises(End, match=ends):
         place_part.place_part(triangle, triangle, Config(), least_scale=0.5)
     assert seen == tried
+
+
+@pytest.mark.parametrize(
+    ("score", "scale", "both", "clear"),
+    [(0.0, 0.5, False, True), (-0.1, 0.9, False, False), (9.0, 0.49, False, False), (9.0, 0.9, True, False)],
+)
+def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_clear(
+    monkeypatch: pytest.MonkeyPatch, score: float, scale: float, both: bool, clear: bool
+) -> None:
+    """Its alternatives are looked for all the same."""
+    one = SimpleNamespace(
+        score=SCORE.part.early_exit_score + score, scale=scale, registration=SimpleNamespace(scale=scale)
+    )
+    other = SimpleNamespace(scale=1.0)
+    tried: list[list[float]] = []
+    monkeypatch.setattr(place_part, "try_scales", lambda _pair, scales: tried.append(scales) or [one])
+    monkeypatch.setattr(place_part, "refine_placement", lambda _pair, placement: placement)
+    monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
+    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [other])
+    monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
+    pair: Any = SimpleNamespace(fixed_scale=False, both_partial=both, small_scale=None)
+    found = place_part._search_placements(pair, 0.9, 3, 0.0, lambda _done: None)
+    assert found == ([one] if clear else [other])
+    assert tried[0] == [0.9]  # the scale of the files comes first
+    assert len(tried) == (1 if clear else 2)

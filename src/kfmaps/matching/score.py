@@ -89,6 +89,8 @@ class PartScoring:
     """Area of the part, over that of the whole, from which a margin counts in full (research/parts.md)."""
     hopeless_margin: float = 5.0
     """Score by which a placement is too far behind to be refined: refinement has gained at most 2.3."""
+    early_exit_score: float = 17.5
+    """Score of the best supported placement from which no other is looked for but its alternatives."""
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
     whole_overlap: float = 0.95

@@ -14,6 +14,7 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.candidates import (
+    PartCandidate,
     candidates_at_scale,
     compare_alternatives,
     make_candidate,
@@ -32,12 +33,13 @@ from kfmaps.matching.partial.scale_search import (
     SCALES,
     TRIALS,
     Placement,
+    refine_placement,
     search_scale,
     settle,
     settle_again,
     try_scales,
 )
-from kfmaps.matching.score import select_distinct
+from kfmaps.matching.score import SCORE, select_distinct
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of that
 _MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
@@ -92,19 +94,7 @@ def place_part(
     small = None if both_partial or ratio is None or not _SMALL[0] < ratio < _SMALL[1] else ratio
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
     report(0.15)
-    scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER_SCALES if both_partial else ())]
-    if not fixed and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
-        scales.append(ratio)
-    likely = _likely_placements(pair, scales, settings.candidates)
-    worth = max((one.scale for one in likely), default=least_scale) >= least_scale
-    likely = likely if worth else likely[:1]
-    report(0.5)
-    found = [make_candidate(one, pair) for one in likely]
-    if worth:
-        known = scales[0] if fixed and both_partial else small
-        found += [] if known is None else candidates_at_scale(pair, known)
-        report(0.65)
-        found = compare_alternatives(found, pair)
+    found = _search_placements(pair, ratio, settings.candidates, least_scale, report)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
     unguided = (_register_fully(last, pair, report, guided=False) if len(pairs) else last).vertices[copies[0].owner]
@@ -126,9 +116,55 @@ def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
     return scale == "fixed" or (scale == "auto" and alike)
 
 
-def candidate_placements(pair: PartPair, scales: list[float], count: int) -> tuple[list[Placement], list[Placement]]:
-    """Return rough placements by relaxation, at the ``count`` likeliest scales and more, and by beam searches."""
-    first = select_distinct(try_scales(pair, scales), _scales_differ, count)
+def _search_placements(
+    pair: PartPair, ratio: float | None, count: int, least_scale: float, report: Callable[[float], None]
+) -> list[PartCandidate]:
+    """Return registered placements, the best first; the parameters are those of :func:`place_part`.
+
+    The search ends early where the best supported placement at the scale of the files, or at any, is clear once it is
+    registered: then only its alternatives are looked for.
+    """
+    scales = [ratio] if pair.fixed_scale and ratio else [*SCALES, *(LARGER_SCALES if pair.both_partial else ())]
+    if not pair.fixed_scale and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
+        scales.append(ratio)
+    supported: list[Placement] = []
+    for some in ([ratio], scales) if ratio in scales[1:] else (scales,):
+        supported = try_scales(pair, some)
+        clear = _clear_candidate(pair, supported[0])
+        if clear is not None:
+            return compare_alternatives([clear], pair)
+    likely = _likely_placements(pair, supported, scales, count)
+    worth = max((one.scale for one in likely), default=least_scale) >= least_scale
+    report(0.5)
+    found = [make_candidate(one, pair) for one in (likely if worth else likely[:1])]
+    if not worth:
+        return found
+    known = scales[0] if pair.fixed_scale and pair.both_partial else pair.small_scale
+    found += [] if known is None else candidates_at_scale(pair, known)
+    report(0.65)
+    return compare_alternatives(found, pair)
+
+
+def _clear_candidate(pair: PartPair, placement: Placement) -> PartCandidate | None:
+    """Return a placement registered, ``None`` unless its score alone leaves no doubt.
+
+    A small part fits in many places, and placements of two parts score less: neither is ever clear.
+    """
+    if pair.both_partial:
+        return None
+    found = make_candidate(refine_placement(pair, placement), pair)
+    is_large = found.registration.scale**2 >= SCORE.part.full_area
+    return found if is_large and found.score >= SCORE.part.early_exit_score else None
+
+
+def candidate_placements(
+    pair: PartPair, supported: list[Placement], scales: list[float], count: int
+) -> tuple[list[Placement], list[Placement]]:
+    """Return rough placements by relaxation, at the ``count`` likeliest scales and more, and by beam searches.
+
+    ``supported``: the placements by relaxation at all ``scales``, the best supported first.
+    """
+    first = select_distinct(supported, _scales_differ, count)
     rough = [*first]
     for params in TRIALS[1:]:
         rough += try_scales(pair, [one.scale for one in first[:2]], params)
@@ -140,9 +176,9 @@ def _scales_differ(one: Placement, other: Placement) -> bool:
     return max(one.scale / other.scale, other.scale / one.scale) > _MIN_SCALE_RATIO
 
 
-def _likely_placements(pair: PartPair, scales: list[float], count: int) -> list[Placement]:
+def _likely_placements(pair: PartPair, supported: list[Placement], scales: list[float], count: int) -> list[Placement]:
     """The placements of all samples that are worth a registration, by relaxation and by beam searches."""
-    rough, beams = candidate_placements(pair, scales, count)
+    rough, beams = candidate_placements(pair, supported, scales, count)
     settled = parallel(lambda one: settle(pair, one), [*rough, *beams])
     # Few samples of a beam search were placed by their descriptors: its score is too low before registration.
     likely: list[Placement] = []
