@@ -84,6 +84,38 @@ def test_rivals_make_nothing_clear():
     assert not has_clear_map([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
 
 
+@pytest.mark.parametrize(
+    ("distortion", "guided", "errors", "settled"),
+    [
+        (1.0, True, [0.0, 0.12], True),
+        (1.0, True, [], True),
+        (2.0, True, [0.0, 0.0], False),  # 1 - 6 · 2 is below
+        (1.0, False, [0.0, 0.0], False),
+        (1.0, True, [0.0, 0.121], False),
+    ],
+)
+def test_landmarks_that_a_clear_map_keeps_to_begin_no_other_maps(
+    monkeypatch, pair, distortion, guided, errors, settled
+):
+    quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
+    best = Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided, np.array(errors))
+    asked = []
+
+    class Ranked(Exception):
+        pass
+
+    def rank(_state):
+        raise Ranked
+
+    monkeypatch.setattr(chosen_by, "without_landmarks", lambda *_, **__: [best])
+    monkeypatch.setattr(chosen_by, "score_maps", lambda found, _pair: found)
+    monkeypatch.setattr(chosen_by, "candidates", lambda *_, **__: asked.append(True) or [])
+    monkeypatch.setattr(chosen_by, "_rank", rank)
+    with pytest.raises(Ranked):
+        chosen_by.search_map(pair[0], pair[1], SMALL, landmarks=np.stack([pair[2][:2], np.arange(2)], axis=1))
+    assert bool(asked) != settled
+
+
 def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
     source, target, truth = pair
     k = 30
