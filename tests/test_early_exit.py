@@ -109,6 +109,7 @@ def test_landmarks_that_a_clear_map_keeps_to_begin_no_other_maps(
 
     monkeypatch.setattr(chosen_by, "without_landmarks", lambda *_, **__: [best])
     monkeypatch.setattr(chosen_by, "score_maps", lambda found, _pair: found)
+    monkeypatch.setattr(chosen_by, "rerefine", lambda found, _pair: found)
     monkeypatch.setattr(chosen_by, "candidates", lambda *_, **__: asked.append(True) or [])
     monkeypatch.setattr(chosen_by, "_rank", rank)
     with pytest.raises(Ranked):

@@ -24,7 +24,7 @@ from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
-from kfmaps.matching.partial.place_part import _same_units, place_part
+from kfmaps.matching.partial.place_part import NotClear, _same_units, place_part
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
     Assignment,
@@ -438,30 +438,44 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
 
 
 @pytest.mark.parametrize(
-    ("word", "told", "opening", "asked", "expected"),
+    ("word", "told", "opening", "asked", "whole", "expected", "steps"),
     [
-        ("sure", 0.95, 0.05, "auto", "part"),  # a whole is not even tried
-        ("ambiguous", 0.4, 0.05, "auto", "whole"),
-        ("likely", 0.7, 0.05, "auto", "the part after all"),
-        ("ambiguous", 0.4, 0.3, "auto", "part"),  # too much is missing for a whole
-        ("ambiguous", 0.4, 0.05, "target", "part"),  # as asked for
+        ("sure", 0.95, 0.05, "auto", "sure", "part", ["clear"]),
+        ("ambiguous", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole"]),
+        ("likely", 0.7, 0.05, "auto", "likely", "part", ["clear", "whole"]),
+        ("none clear", 0.7, 0.05, "auto", "sure", "whole", ["clear", "whole"]),  # the full search is spared
+        ("none clear", 0.7, 0.05, "auto", "likely", "part", ["clear", "whole", "part"]),
+        ("none clear", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole", "part"]),
+        ("ambiguous", 0.4, 0.3, "auto", "sure", "part", ["part"]),  # too much is missing for a whole
+        ("ambiguous", 0.4, 0.05, "target", "sure", "part", ["part"]),  # as asked for
     ],
 )
-def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(monkeypatch, pair, word, told, opening, asked, expected):
+def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
+    monkeypatch, pair, word, told, opening, asked, whole, expected, steps
+):
     tried = []
+    part = SimpleNamespace(verdict=word, confidence=told, partial=MatchPart(scale=0.7))
+    other = SimpleNamespace(verdict=whole, confidence=0.6, partial=MatchPart(scale=0.7))
 
-    def wholes(task, *_):
-        tried.append(task.partial.reason)
-        return SimpleNamespace(verdict="sure", confidence=0.6)
+    def parts(*_, clear_only=False):
+        tried.append("clear" if clear_only else "part")
+        if clear_only and word == "none clear":
+            raise NotClear
+        return part, False
 
-    part = SimpleNamespace(verdict=word, confidence=told, partial=MatchPart(scale=0.1))
-    monkeypatch.setattr(matching, "match_partial", lambda *_: (part, False))
+    def wholes(*given):
+        tried.append("whole")
+        assert given[-1].reason == matching._FIT_AS_WHOLES
+        return other
+
+    monkeypatch.setattr(matching, "match_partial", parts)
     monkeypatch.setattr(matching, "_match_wholes", wholes)
+    monkeypatch.setattr(matching, "_compare_opposite", lambda _task, best, _which: best)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
     result = matching.match(pair.source, pair.target, config)
-    assert (result is part) == (expected != "whole")
-    assert tried == ([] if expected == "part" else [matching._FIT_AS_WHOLES])
+    assert result is {"part": part, "whole": other}[expected]
+    assert tried == steps
 
 
 @pytest.mark.parametrize(
@@ -488,7 +502,7 @@ def test_what_is_open_may_have_more_than_what_is_closed(
     answers = {"target": part, "source": opposite}
     tried = []
 
-    def matched(_task, which, *_):
+    def matched(_task, which, *_, **__):
         tried.append(which)
         return answers[which], False
 

@@ -194,7 +194,10 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [other])
     monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
     pair: Any = SimpleNamespace(fixed_scale=False, both_partial=both, small_scale=None)
-    found = place_part._search_placements(pair, 0.9, 3, 0.0, lambda _done: None)
+    found = place_part._search_placements(pair, 0.9, 3, 0.0, False, lambda _done: None)
     assert found == ([one] if clear else [other])
     assert tried[0] == [0.9]  # the scale of the files comes first
     assert len(tried) == (1 if clear else 2)
+    if not clear:
+        with pytest.raises(place_part.NotClear):
+            place_part._search_placements(pair, 0.9, 3, 0.0, True, lambda _done: None)

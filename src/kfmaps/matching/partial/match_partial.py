@@ -26,13 +26,17 @@ COMMON = 0.5
 
 
 def match_partial(
-    task: MatchTask, which: Literal["source", "target", "both"], why: str, least_scale: float = 0.0
+    task: MatchTask,
+    which: Literal["source", "target", "both"],
+    why: str,
+    least_scale: float = 0.0,
+    clear_only: bool = False,
 ) -> tuple[Match, bool]:
     """Match two shapes of which one is a part; return the match, and whether the common part is most of both.
 
     ``which``: the part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
-    target where their units cannot be compared. ``why``: for what reason it is taken for a part; ``least_scale``: see
-    :func:`kfmaps.matching.partial.place_part.place_part`.
+    target where their units cannot be compared. ``why``: for what reason it is taken for a part; ``least_scale`` and
+    ``clear_only``: see :func:`kfmaps.matching.partial.place_part.place_part`.
     """
     source, target = task.shapes("preserving")
     for shape in (source, target):
@@ -52,6 +56,7 @@ def match_partial(
         rng=task.seed,
         progress=lambda done: task.clock.report("parts", done),
         least_scale=least_scale,
+        clear_only=clear_only,
     )
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
     marked = pairs[:, ::-1] if forward else pairs

@@ -47,6 +47,10 @@ _MAX_RATIO = 2.0  # of the sizes of two parts in one unit; an inch is 2.54 cm
 _SMALL = (0.25, 0.5)  # scales by the files between which a part is a small one, below a quarter of the area
 
 
+class NotClear(Exception):
+    """A search for a part that was to end early did not."""
+
+
 @dataclass(frozen=True, eq=False)
 class PlacedPart:
     """A part placed on a whole."""
@@ -70,6 +74,7 @@ def place_part(
     rng: int = 0,
     progress: Callable[[float], None] | None = None,
     least_scale: float = 0.0,
+    clear_only: bool = False,
 ) -> PlacedPart:
     """Place a part on a whole.
 
@@ -77,7 +82,7 @@ def place_part(
     the scales that are tried, and the only one where units are the same (:func:`_same_units`); ``landmarks (l, 2)``:
     vertices of the part and of the whole; ``both_partial``: whether the whole, too, may lack something; ``progress``:
     told about how much is done, from 0 to 1; ``least_scale``: where no likely placement is as large, only the first of
-    them is registered.
+    them is registered; ``clear_only``: raise :exc:`NotClear` where the search would not end early.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
@@ -94,7 +99,7 @@ def place_part(
     small = None if both_partial or ratio is None or not _SMALL[0] < ratio < _SMALL[1] else ratio
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
     report(0.15)
-    found = _search_placements(pair, ratio, settings.candidates, least_scale, report)
+    found = _search_placements(pair, ratio, settings.candidates, least_scale, clear_only, report)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
     unguided = (_register_fully(last, pair, report, guided=False) if len(pairs) else last).vertices[copies[0].owner]
@@ -117,7 +122,12 @@ def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
 
 
 def _search_placements(
-    pair: PartPair, ratio: float | None, count: int, least_scale: float, report: Callable[[float], None]
+    pair: PartPair,
+    ratio: float | None,
+    count: int,
+    least_scale: float,
+    clear_only: bool,
+    report: Callable[[float], None],
 ) -> list[PartCandidate]:
     """Return registered placements, the best first; the parameters are those of :func:`place_part`.
 
@@ -133,6 +143,8 @@ def _search_placements(
         clear = _clear_candidate(pair, supported[0])
         if clear is not None:
             return compare_alternatives([clear], pair)
+    if clear_only:
+        raise NotClear
     likely = _likely_placements(pair, supported, scales, count)
     worth = max((one.scale for one in likely), default=least_scale) >= least_scale
     report(0.5)
