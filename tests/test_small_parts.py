@@ -176,28 +176,53 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
 
 
 @pytest.mark.parametrize(
-    ("score", "scale", "both", "clear"),
-    [(0.0, 0.5, False, True), (-0.1, 0.9, False, False), (9.0, 0.49, False, False), (9.0, 0.9, True, False)],
+    ("score", "scale", "both", "agree", "clear"),
+    [
+        (0.0, 0.5, False, 97, True),
+        (9.0, 0.9, False, 96, False),
+        (-0.1, 0.9, False, 100, False),
+        (9.0, 0.49, False, 100, False),
+        (9.0, 0.9, True, 100, False),
+    ],
 )
 def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_clear(
-    monkeypatch: pytest.MonkeyPatch, score: float, scale: float, both: bool, clear: bool
+    monkeypatch: pytest.MonkeyPatch, score: float, scale: float, both: bool, agree: int, clear: bool
 ) -> None:
     """Its alternatives are looked for all the same."""
-    one = SimpleNamespace(
-        score=SCORE.part.early_exit_score + score, scale=scale, registration=SimpleNamespace(scale=scale)
+    each = np.arange(100)
+    one, again = (
+        SimpleNamespace(
+            score=SCORE.part.early_exit_score + score,
+            scale=scale,
+            registration=SimpleNamespace(scale=scale),
+            placed=SimpleNamespace(match=match),
+        )
+        for match in (each, np.where(each < agree, each, (each + 50) % 100))
     )
-    other = SimpleNamespace(scale=1.0)
-    tried: list[list[float]] = []
-    monkeypatch.setattr(place_part, "try_scales", lambda _pair, scales: tried.append(scales) or [one])
+    likely = SimpleNamespace(scale=1.0)
+    scales_tried: list[list[float]] = []
+
+    def try_scales(_pair: Any, scales: list[float], params: Any = TRIALS[0]) -> list[Any]:
+        if params is TRIALS[1]:
+            assert scales == [scale]
+            return [again]
+        scales_tried.append(scales)
+        return [one]
+
+    monkeypatch.setattr(place_part, "try_scales", try_scales)
     monkeypatch.setattr(place_part, "refine_placement", lambda _pair, placement: placement)
+    monkeypatch.setattr(place_part, "settle", lambda _pair, placement: placement)
     monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
-    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [other])
+    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
-    pair: Any = SimpleNamespace(fixed_scale=False, both_partial=both, small_scale=None)
+    line = np.abs(each[:, None] - each) * 0.05
+    pair: Any = SimpleNamespace(
+        fixed_scale=False, both_partial=both, small_scale=None, whole=SimpleNamespace(distances=line)
+    )
     found = place_part._search_placements(pair, 0.9, 3, 0.0, False, lambda _done: None)
-    assert found == ([one] if clear else [other])
-    assert tried[0] == [0.9]  # the scale of the files comes first
-    assert len(tried) == (1 if clear else 2)
+    assert found == ([one] if clear else [likely])
+    assert scales_tried[0] == [0.9]  # the scale of the files comes first
+    assert len(scales_tried) == (1 if clear else 2)
     if not clear:
         with pytest.raises(place_part.NotClear):
             place_part._search_placements(pair, 0.9, 3, 0.0, True, lambda _done: None)

@@ -91,6 +91,9 @@ class PartScoring:
     """Score by which a placement is too far behind to be refined: refinement has gained at most 2.3."""
     early_exit_score: float = 17.5
     """Score of the best supported placement from which no other is looked for but its alternatives."""
+    early_exit_agreement: float = 0.97
+    """Share of the samples on which another relaxation must agree with it: right ones have 0.973 and more, those with a
+    limb elsewhere up to 0.963 (research/parts.md)."""
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
     whole_overlap: float = 0.95

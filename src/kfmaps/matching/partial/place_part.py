@@ -158,15 +158,20 @@ def _search_placements(
 
 
 def _clear_candidate(pair: PartPair, placement: Placement) -> PartCandidate | None:
-    """Return a placement registered, ``None`` unless its score alone leaves no doubt.
+    """Return a placement registered, ``None`` unless it leaves no doubt: by its score, and by another relaxation.
 
-    A small part fits in many places, and placements of two parts score less: neither is ever clear.
+    A score says little of a single limb that lies elsewhere; two relaxations rarely agree on it. A small part fits in
+    many places, and placements of two parts score less: neither is ever clear.
     """
     if pair.both_partial:
         return None
-    found = make_candidate(refine_placement(pair, placement), pair)
-    is_large = found.registration.scale**2 >= SCORE.part.full_area
-    return found if is_large and found.score >= SCORE.part.early_exit_score else None
+    placement = refine_placement(pair, placement)
+    found, numbers = make_candidate(placement, pair), SCORE.part
+    if found.score < numbers.early_exit_score or found.registration.scale**2 < numbers.full_area:
+        return None
+    other = settle(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
+    apart = pair.whole.distances[placement.placed.match, other.placed.match]
+    return found if float((apart < numbers.distinct_distance).mean()) >= numbers.early_exit_agreement else None
 
 
 def candidate_placements(
