@@ -8,7 +8,7 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fmap.convert import to_points
 from kfmaps.matching import candidates as found_by
-from kfmaps.matching import search_result
+from kfmaps.matching import search, search_result
 from kfmaps.matching.candidates import candidates, has_clear_map
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.sample_pair import two_level_samples
@@ -107,13 +107,13 @@ def test_landmarks_that_a_clear_map_keeps_to_begin_no_other_maps(
     def rank(_state):
         raise Ranked
 
-    monkeypatch.setattr(chosen_by, "without_landmarks", lambda *_, **__: [best])
-    monkeypatch.setattr(chosen_by, "score_maps", lambda found, _pair: found)
-    monkeypatch.setattr(chosen_by, "rerefine", lambda found, _pair: found)
-    monkeypatch.setattr(chosen_by, "candidates", lambda *_, **__: asked.append(True) or [])
-    monkeypatch.setattr(chosen_by, "_rank", rank)
+    monkeypatch.setattr(search, "candidates_without_landmarks", lambda *_, **__: [best])
+    monkeypatch.setattr(search, "score_maps", lambda found, _pair: found)
+    monkeypatch.setattr(search, "rerefine", lambda found, _pair: found)
+    monkeypatch.setattr(search, "candidates", lambda *_, **__: asked.append(True) or [])
+    monkeypatch.setattr(search, "_rank", rank)
     with pytest.raises(Ranked):
-        chosen_by.search_map(pair[0], pair[1], SMALL, landmarks=np.stack([pair[2][:2], np.arange(2)], axis=1))
+        search.search_map(pair[0], pair[1], SMALL, landmarks=np.stack([pair[2][:2], np.arange(2)], axis=1))
     assert bool(asked) != settled
 
 

@@ -3,7 +3,7 @@
 1. Both shapes are prepared: cleaned, with their bases and descriptors (:mod:`kfmaps.shape`).
 2. Where one shape has much longer open boundaries than the other it may be a part of it. Then the part is placed on the
    whole (:mod:`~kfmaps.matching.partial.match_partial`).
-3. Otherwise, or where that match is not sure, the shapes are matched as wholes: a search
+3. Otherwise, or where that match is not sure or not clear at once, the shapes are matched as wholes: a search
    (:mod:`~kfmaps.matching.search`) or one fit (:mod:`~kfmaps.matching.fit`) gives a functional map, which is refined on
    all vertices and registered (:mod:`~kfmaps.matching.finish`).
 4. Where distances around many vertices are not preserved by the result, other candidates of the search are finished
@@ -15,7 +15,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -33,6 +35,7 @@ from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_U
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import PartDetection, detect_part
 from kfmaps.matching.partial.match_partial import match_partial
+from kfmaps.matching.partial.place_part import NotClear
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
@@ -77,11 +80,13 @@ def match(
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     with limit_threads(config.threads):
         detection = _detect_part(task)
-        best, as_wholes = _match_part(task, detection)
+        wholes = partial(_match_wholes, task, marks, descriptors, probes)
         may_be_whole = config.search is not None and detection.opening <= SCORE.part.max_hole_opening
-        if best is None or (best.verdict != "sure" and may_be_whole):
-            # A body with holes is matched well either way, one of other proportions only as a whole.
-            best = _more_probable(best, _match_wholes(replace(task, partial=as_wholes), marks, descriptors, probes))
+        if may_be_whole and detection.which != "none":
+            best = _match_holed(task, detection, wholes)
+        else:
+            best, as_wholes = _match_part(task, detection)
+            best = best or wholes(as_wholes)
         may_have_more = config.partial.part == "auto" and detection.which != "none"
         if not may_have_more or best.verdict == "sure" or best.confidence is None:
             return best
@@ -101,16 +106,33 @@ def _detect_part(task: MatchTask) -> PartDetection:
     return detect_part(shapes[0].mesh, shapes[1].mesh)
 
 
-def _match_part(task: MatchTask, detection: PartDetection) -> tuple[Match | None, MatchPart]:
+def _match_holed(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
+    """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
+
+    A body with holes is matched well either way, one of other proportions only as a whole. The full search for a part
+    takes longer than all else, so it comes last.
+    """
+    part, as_wholes, is_clear = None, MatchPart(reason=_FIT_AS_WHOLES, suspected=True), True
+    try:
+        part, as_wholes = _match_part(task, detection, clear_only=True)
+    except NotClear:
+        is_clear = False
+    if part is not None and part.verdict == "sure":
+        return part
+    best = _more_probable(part, wholes(as_wholes))
+    return best if is_clear or best.verdict == "sure" else _more_probable(_match_part(task, detection)[0], best)
+
+
+def _match_part(task: MatchTask, detection: PartDetection, clear_only: bool = False) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, and what a match of whole shapes says about parts.
 
     The match is ``None`` where no part is suspected, where each shape covers the other, and where the part does
-    not fit.
+    not fit. ``clear_only``: see :func:`kfmaps.matching.partial.place_part.place_part`.
     """
     if detection.which == "none":
         return None, MatchPart(reason=detection.reason)
     with task.clock("parts"):
-        part, covers = match_partial(task, detection.which, detection.reason)
+        part, covers = match_partial(task, detection.which, detection.reason, clear_only=clear_only)
     if task.config.partial.part != "auto" or (not covers and part.verdict != "unlikely"):
         return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if covers else "it fits nowhere"
@@ -138,8 +160,10 @@ def _match_wholes(
     landmarks: np.ndarray | None,
     descriptors: tuple[Array, Array] | None,
     probes: tuple[ShapeSamples, ShapeSamples] | None,
+    as_wholes: MatchPart,
 ) -> Match:
-    """Return the match of two whole shapes, by a search or by one fit."""
+    """Return the match of two whole shapes, by a search or by one fit; ``as_wholes``: what it says about parts."""
+    task = replace(task, partial=as_wholes)
     config, report = task.config, task.clock.report
     if config.search is None:
         return refine_and_register(task, _fit_once(task, landmarks, descriptors), None)

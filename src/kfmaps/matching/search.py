@@ -34,7 +34,17 @@ from kfmaps._arrays import Array, refuse, seed_of
 from kfmaps._progress import Progress
 from kfmaps._threads import limit_threads, parallel
 from kfmaps.config import Config
-from kfmaps.matching.candidates import FINE_FUNCTIONS, candidates, derived_seed, distinct_maps, map_distance, score_maps
+from kfmaps.matching.candidates import (
+    FINE_FUNCTIONS,
+    by_score,
+    candidates,
+    derived_seed,
+    distinct_maps,
+    has_clear_map,
+    map_distance,
+    rerefine,
+    score_maps,
+)
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
@@ -162,14 +172,25 @@ def _rank_candidates(
     kept = state.landmarks[~state.rejected]
     if state.rejected.any():
         state = replace(state, samples=drop_landmarks(state.samples, state.rejected))
+    free = score_maps(state.without_landmarks, state.samples.fine)
     found: list[Candidate] = []
-    if len(kept) or not len(state.landmarks):
+    if len(kept) and _is_settled(by_score(free)[0]):
+        found = rerefine(free, state.samples.fine)
+    elif len(kept) or not len(state.landmarks):
         pair = state.source, state.target
         found = candidates(
             *pair, state.config, state.samples, seed, landmarks=kept, descriptors=descriptors, report=report
         )
-    free = score_maps(state.without_landmarks, state.samples.fine)
     return _rank(replace(state, candidates=[*found, *free], without_landmarks=free))
+
+
+def _is_settled(best: Candidate) -> bool:
+    """Return whether the best map that was found without landmarks is clear and keeps to all of them.
+
+    Then landmarks only refine it.
+    """
+    keeps_all = bool((best.landmark_errors <= SCORE.max_isometric_landmark_error).all())
+    return keeps_all and has_clear_map([best])
 
 
 def _rank(state: SearchState) -> SearchState:
