@@ -984,7 +984,15 @@ MUTANTS = tuple(
         ("(second.confidence or 0.0) > (first.confidence or 0.0)", "True", "test_parts -k may_be_a_whole"),
         # whether the open shape has more than the closed one
         ("least = math.sqrt(SCORE.part.full_area)", "least = SCORE.part.full_area", "test_parts -k may_have_more"),
-        ("likely = likely if worth else likely[:1]", "likely = likely[:1]", "test_small_parts"),
+        ("for one in (likely if worth else likely[:1])", "for one in likely[:1]", "test_small_parts"),
+        # where the search for a part ends early, and what comes before the full one
+        ("(apart < numbers.distinct_distance)", "(apart > numbers.distinct_distance)", "test_small_parts"),
+        ("found.score < numbers.early_exit_score or", "", "test_small_parts -k search_ends"),
+        (">= numbers.early_exit_agreement", ">= 0.0", "test_small_parts -k search_ends"),
+        ("return best if is_clear or best.verdict", "return best if best.verdict", "test_parts -k may_be_a_whole"),
+        # where landmarks begin no maps
+        ("return keeps_all and has_clear_map([best])", "return keeps_all", "test_early_exit"),
+        ("return keeps_all and has_clear_map([best])", "return has_clear_map([best])", "test_early_exit"),
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (
