@@ -14,8 +14,8 @@ from typing import Any
 
 __version__ = "0.1.0"
 
-# The stub beside this file is the one list of public names. A name is imported when it is first asked for (PEP 562),
-# because SciPy and the mesh readers take half a second that `kfmaps --help` need not wait for.
+# The stub beside this file is the only list of public names. A name is imported when it is first used (PEP 562), since
+# SciPy and the mesh readers take half a second, for which `kfmaps --help` need not wait.
 _HOMES = {
     name: home
     for home, name in re.findall(

@@ -39,11 +39,11 @@ from kfmaps.io.convert import (
     is_file,
 )
 from kfmaps.io.mapfile import map_mesh_file
-from kfmaps.io.transfer import transfer as carried
+from kfmaps.io.transfer import transfer as transfer_values
 from kfmaps.matching import match as matching
 from kfmaps.matching.result import Match
 from kfmaps.shape import Shape
-from kfmaps.shape import prepare as prepared
+from kfmaps.shape import prepare as prepare_mesh
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -130,7 +130,7 @@ def prepare(
     _check_config(config)
     name = name or (Path(shape).name if is_file(shape) else "shape")
     with _reporting(progress) as report:
-        return prepared(as_mesh(shape, name), config, name=name, progress=report)
+        return prepare_mesh(as_mesh(shape, name), config, name=name, progress=report)
 
 
 def transfer(
@@ -160,7 +160,7 @@ def transfer(
         When the map names a vertex that has no value, or the source has another number of vertices.
     """
     mesh = None if source is None else as_mesh(source, "source")
-    return carried(values, as_map(map, mesh), None if mesh is None else mesh.faces, lost)
+    return transfer_values(values, as_map(map, mesh), None if mesh is None else mesh.faces, lost)
 
 
 def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | PointMap) -> np.ndarray:
@@ -324,7 +324,7 @@ def view(
 
     Parameters
     ----------
-    found, source, target, truth, force
+    map, source, target, truth, force
         As in :func:`render`.
     output : path, optional
         Write the page there and show nothing.

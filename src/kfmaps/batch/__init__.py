@@ -1,1 +1,1 @@
-"""Whole collections: which pairs, prepared shapes kept, matching in parallel, results and a summary."""
+"""Whole collections: choice of pairs, a cache of prepared shapes, parallel matching, results and a summary."""

@@ -41,7 +41,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Say what is missing when a name is asked for, so that the package itself can be imported without PyTorch."""
+    """Raise an error that names PyTorch only when a name is used, so that the package can be imported without it."""
     if name in __all__:
         raise MissingDependency("kfmaps.learn needs PyTorch. Install it with: pip install 'kfmaps[learn]'.")
     raise AttributeError(f"module 'kfmaps.learn' has no attribute {name!r}")

@@ -1,4 +1,4 @@
-"""The energy of a pair as a function of its features, in PyTorch, and its minimiser with derivatives.
+"""The energy of a pair as a function of its features in PyTorch, and its differentiable minimiser.
 
 The map ``C`` that minimises ``½⟨C, A(C)⟩ − ⟨B, C⟩`` solves ``A(C) = B``. Where ``A`` and ``B`` depend on parameters θ,
 ``dC = A⁻¹ (dB − dA(C))``. So for a loss with the gradient ``G`` in ``C``, the gradient in θ is that of
@@ -89,7 +89,7 @@ class _Implicit(torch.autograd.Function):
 
     @staticmethod
     def forward(ctx: Any, residual: torch.Tensor, C: torch.Tensor, inverse: Operator) -> torch.Tensor:
-        del residual  # zero; it is here for its derivative
+        del residual  # its value is zero; only its derivative counts
         ctx.inverse = inverse
         return C.clone()
 

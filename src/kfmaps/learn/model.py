@@ -1,4 +1,4 @@
-"""What can be learned, the settings that it stands for, and the loss: the expected error of a soft point map."""
+"""The model with its learned parameters, the settings that they stand for, and the loss of a soft point map."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ RANK = {"signature": 2, "landmark": 1, "shot": 2}
 _RIDGE = 0.1  # added to the variance between corresponding points, in units of the mean variance on a shape
 
 _Blocks = list[tuple[str, slice]]
-"""Kind and columns of each block of descriptors. Those of one kind share parameters, so that what is learned does not
-depend on which point is the first landmark."""
+"""Kind and columns of each block of descriptors. Blocks of one kind share parameters, so that the order of landmarks
+does not matter."""
 
 
 def _blocks(config: DescriptorConfig, landmarks: int, count: int) -> _Blocks:
@@ -93,7 +93,7 @@ class Model(torch.nn.Module):
             if rank.get(kind, 0) < 1:
                 raise refuse("rank", f"rows for {kind}", repr(dict(rank)), "name as many kinds as there are")
             self._add(f"metric_{kind}", _directions(pairs, self.blocks, kind, rank[kind]), "metric")
-        # A metric has another scale than the descriptors, so a width that was given does not fit it.
+        # A metric changes the scale of descriptors, so the configured width does not fit.
         kernel = replace(self.kernel, gamma=None) if "metric" in parts else self.kernel
         with torch.no_grad():
             samples = [self.transform(pair.samples).numpy() for pair in pairs]
@@ -242,11 +242,11 @@ def geodesic_loss(
     ----------
     C : (k_t, k_s) tensor
     functions_s : (n, k_s) tensor
-        At the source points that may be chosen.
+        At all points of the source.
     functions_t : (m, k_t) tensor
-        At the target points that are judged.
+        At the evaluated points of the target.
     distances : (m, n) tensor
-        From the true partner of each of these, on the source, to each point that may be chosen.
+        From the true point of each of these, on the source, to each point of the source.
     temperature : float
         See :func:`soft_point_map`.
     """

@@ -56,7 +56,7 @@ def training_pair(
     samples: int = 150,
     rng: int | np.random.Generator = 0,
 ) -> TrainingPair:
-    """Return what learning needs of two shapes that were prepared with ``config``.
+    """Return the training pair of two shapes that were prepared with ``config``.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def training_pair(
 def _truth(
     source: Shape, target: Shape, points: tuple[np.ndarray, np.ndarray], k: int, truth: tuple[ArrayLike, ArrayLike]
 ) -> tuple[np.ndarray, ...]:
-    """Return the last four fields of a pair whose fit uses ``points`` of source and target."""
+    """Return the last four fields of a pair, whose fit uses the vertices ``points`` of source and target."""
     true_s, true_t = (np.asarray(side) for side in truth)
     for side, shape in ((true_s, source), (true_t, target)):
         name, n = f"truth of {shape.name}", len(shape.mesh.vertices)
@@ -112,7 +112,7 @@ def _truth(
         if len(side) == 0 or side.min() < 0 or side.max() >= n:
             got = f"{side.min()} to {side.max()}" if side.size else "none"
             raise refuse(name, f"vertices from 0 to {n - 1}", got, "take the lists of these shapes")
-    # The same lines for every pair of a collection: distances from them can be kept with the shape.
+    # The same lines for every pair of a collection, so that distances from them can be cached.
     lines = np.random.default_rng(0).choice(len(true_s), min(_MAX_CORRESPONDENCES, len(true_s)), replace=False)
     true_s, true_t = (side[np.sort(lines)] for side in (true_s, true_t))
     points_s, points_t = (
@@ -124,12 +124,12 @@ def _truth(
     return target.basis.truncate(k).functions[true_t], distances, points_s, points_t
 
 
-_KEPT: WeakKeyDictionary[Mesh, dict[bytes, np.ndarray]] = WeakKeyDictionary()
+_DISTANCES: WeakKeyDictionary[Mesh, dict[bytes, np.ndarray]] = WeakKeyDictionary()
 
 
 def _distances(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
-    """Return geodesic distances ``(m, n)`` float32, kept as long as the mesh: it is the source of many pairs."""
-    cache = _KEPT.setdefault(mesh, {})
+    """Return geodesic distances ``(m, n)`` float32, cached as long as the mesh, the source of many pairs, exists."""
+    cache = _DISTANCES.setdefault(mesh, {})
     key = sources.tobytes()
     if key not in cache:
         cache[key] = geodesic_distances(mesh, sources).astype(np.float32)

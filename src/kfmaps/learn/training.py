@@ -1,6 +1,6 @@
-"""Learning: steps of Adam over pairs, early stopping on held-out pairs, the best state always kept.
+"""Learn by steps of Adam over pairs with early stopping on held-out pairs; the best state is kept.
 
-The state is a file from which learning continues, and a picture.
+The state can be saved to a file, from which learning continues, and drawn.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ class Epoch:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Where learning stands: all that is needed to continue as if it had never stopped."""
+    """The state of learning, with everything that is needed to continue."""
 
-    parameters: dict[str, torch.Tensor]  # of the model, now
-    best: dict[str, torch.Tensor]  # at the epoch that was best on the held-out pairs
+    parameters: dict[str, torch.Tensor]  # of the model
+    best: dict[str, torch.Tensor]  # those of the epoch with the least held-out error
     optimizer: dict  # state of Adam
     history: tuple[Epoch, ...]
 
@@ -52,7 +52,7 @@ class State:
 
     @property
     def best_epoch(self) -> Epoch:
-        """Return the epoch that was best on the held-out pairs."""
+        """Return the epoch with the least held-out error."""
         return min(self.history, key=lambda epoch: epoch.held_out)
 
 
@@ -66,19 +66,19 @@ def learn(
     on_epoch: Callable[[State], None] | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> State:
-    """Fit a model's parameters to pairs, and leave it with those that were best on the held-out pairs.
+    """Fit a model's parameters to pairs; in the end the model has those with the least held-out error.
 
     Parameters
     ----------
     model : Model
         Changed in place.
     pairs, held_out : sequences of TrainingPair
-        To learn from, and to judge by. Without held-out pairs the loss of the training pairs is the judge.
+        To learn from, and to choose the best epoch. Without held-out pairs the training loss chooses it.
     options : TrainingOptions, optional
     state : State, optional
         Of an earlier call with the same arguments, to continue from.
     on_epoch : callable, optional
-        Called with the state after each epoch, for instance to write it down.
+        Called with the state after each epoch, for instance to save it.
     progress : callable, optional
         ``progress(stage, done)`` with done from 0 to 1.
 
@@ -226,9 +226,9 @@ def _failure(error: Exception, name: str, state: State) -> NotConverged:
 
 
 def save(path: str | Path, state: State, settings: str, request: JsonObject) -> None:
-    """Write the file ``path``: a ``state``, and plain values beside it.
+    """Write a ``state`` and plain values to the file ``path``.
 
-    ``settings`` are the TOML of the best parameters, ``request`` is what a later run must ask for again to continue.
+    ``settings``: TOML of the best parameters; ``request``: arguments that a later run must repeat to continue.
     """
     content = {
         "format": FORMAT,
@@ -266,7 +266,7 @@ def load(path: str | Path) -> tuple[State, str, JsonObject]:
 
 
 def learning_figure(history: Sequence[Epoch]) -> Figure:
-    """Draw the training loss and the held-out error by epoch of a ``history``; a ring marks the epoch that was kept."""
+    """Draw the training loss and the held-out error by epoch of a ``history``; a ring marks the best epoch."""
     figure = Figure(figsize=(5.5, 4.2), facecolor="white", layout="constrained")
     numbers, best = [epoch.number for epoch in history], min(history, key=lambda epoch: epoch.held_out)
     rows = (("training loss × 100", "loss"), ("held-out error × 100", "held_out"))

@@ -110,7 +110,7 @@ def parse_workers(text: str | None) -> int | str | None:
 
 
 def describe_plan(plan: Plan) -> str:
-    """Return how much there is to do, in words."""
+    """Return the amount of work in words."""
     count = len(plan.tasks)
     shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
     parts = [f"{plural(count, 'pair')} of {shapes} shapes"]
@@ -120,7 +120,7 @@ def describe_plan(plan: Plan) -> str:
 
 
 def _describe_outcome(plan: Plan, batch_result: BatchResult) -> list[str]:
-    """The result of a run in lines of text."""
+    """Return the result of a run as lines of text."""
     numbers = summarize(batch_result.results)
     lines = []
     if batch_result.interrupted:
@@ -139,7 +139,7 @@ def _describe_outcome(plan: Plan, batch_result: BatchResult) -> list[str]:
 
 
 def _describe_consistent(consistent: ConsistentResult) -> list[str]:
-    """Lines of text: which maps were replaced, by what and why."""
+    """Return lines of text: which maps were replaced, by what and why."""
     lines = ["no map replaced" if consistent.doubted else "all maps agree: none replaced"]
     if consistent.before:
         lines = [f"{plural(len(consistent.before), 'map')} replaced that others contradict"]

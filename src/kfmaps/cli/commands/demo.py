@@ -122,15 +122,15 @@ def _compare(
 ) -> tuple[ExamplePair, list[JsonObject]]:
     """Match a pair automatically, then with landmarks with a kernel and without (NO17).
 
-    The last two get the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors are in
-    units of √area, of the refined map and of the fit alone.
+    The last two have the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors of the
+    refined and the raw map are in units of √area.
     """
     with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)
         pair, rows = _pair(shape, vertices, landmarks, seed)
         stages("shapes", 1.0)
         automatic, single = Config(), Config.single_fit()
-        # The same shapes for all: the fits with landmarks need more eigenfunctions.
+        # The same shapes serve all matches; those with landmarks need more eigenfunctions.
         size = max(automatic.n_eigenfunctions, single.n_eigenfunctions)
         config = replace(automatic, descriptors=replace(automatic.descriptors, n_eigenfunctions=size))
         sides = (("source", pair.source), ("target", pair.target))

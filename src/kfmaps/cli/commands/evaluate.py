@@ -51,7 +51,7 @@ def evaluate(
         if part not in ("source", "target"):
             raise refuse("--part", "source or target", repr(part), "choose one of them")
         if truth is not None or symmetric is not None or identity:
-            raise refuse("--truth-part", "one truth", "another beside it", "leave one out")
+            raise refuse("--truth-part", "one truth", "another as well", "leave one out")
     elif truth is None and symmetric is None and not identity:
         raise refuse("truth", "--truth SOURCE TARGET, --truth-part or --identity", "none of them", "say what is true")
     match = load_map(map)
@@ -89,7 +89,7 @@ def _target_mesh(path: Path | None, match: Match, map: Path) -> Mesh | None:
 
 
 def _table(accuracy: Accuracy) -> Table:
-    """Return a column of errors for each kind that is known, and the shares of area below."""
+    """Return a table with a column for each kind of errors, and shares of area below."""
     precise, mirrored, smooth = accuracy.precise, accuracy.mirrored, accuracy.smoothness
     of_part = accuracy.missing is not None
     sides = {"" if of_part else "error" if precise is None else "vertices": accuracy.errors}

@@ -102,7 +102,7 @@ def info(
 
 
 def _table(facts: JsonObject) -> Table:
-    """A row for each fact about one file."""
+    """Return a table with a row for each fact about one file."""
     table = Table(title=Text(printable(facts["file"])), show_header=False)
     for name, value in _cells(facts).items():
         table.add_row(name, Text(value))
@@ -110,7 +110,7 @@ def _table(facts: JsonObject) -> Table:
 
 
 def _overview(files: list[JsonObject]) -> Table:
-    """A row for each file, without what stands in brackets."""
+    """Return a table with a row for each file, without remarks in brackets."""
     columns = ("vertices", "faces", "area", "components", "genus", "defects")
     table = Table()
     for name in ("file", *columns):

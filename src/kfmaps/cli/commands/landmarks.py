@@ -1,4 +1,4 @@
-"""``kfmaps landmarks``: pairs picked by hand on a local page, landmarks carried to many scans, and their review."""
+"""``kfmaps landmarks``: pick pairs on a local page, propagate landmarks to many scans, and review them."""
 
 from __future__ import annotations
 
@@ -232,7 +232,7 @@ def _serve(page_server: PickerServer | ReviewServer, fields: dict[str, object], 
         if browser:  # by a file: the browser's command line, with a name in it, is there for all users to see
             page_file, has_browser = open_page(forwarding_page(page_server.address))
             if not has_browser and not json:
-                typer.echo("No browser was found; open the address yourself.")
+                typer.echo("No browser was found; open the address by hand.")
         page_server.serve_forever()
     except KeyboardInterrupt:
         if not json:

@@ -37,7 +37,7 @@ NUMBERS: dict[str, int | float] = {
 }
 """Defaults of --training: numbers of pairs, and fields of TrainingOptions."""
 
-_MAX_SAMPLES = 2500  # points of each shape that learning fits maps from; matches take as many as the settings say
+_MAX_SAMPLES = 2500  # points of each shape in the fits of learning; matches use the number of the settings
 _START = replace(
     Config.single_fit(),
     descriptors=DescriptorConfig(shot=True, n_eigenfunctions=200),
@@ -45,8 +45,8 @@ _START = replace(
     weights=Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0),
     formulation=Formulation(mask="resolvent"),
 )
-"""The settings that learning starts from. SHOT adds what the signature lacks. Few strong descriptors need less
-commutativity and a sharper kernel."""
+"""The settings that learning starts from, with SHOT and the signature. Few strong descriptors need less commutativity
+and a sharper kernel."""
 
 
 @with_settings
@@ -57,7 +57,7 @@ def learn(
         typer.Option(
             "-o",
             "--output",
-            help="Settings for kfmaps match --config: .toml, or .pt. The state (.pt) and a picture lie beside it.",
+            help="Settings for kfmaps match --config: .toml, or .pt. Also writes the state (.pt) and a picture (.png).",
         ),
     ],
     truth_landmarks: Annotated[

@@ -65,8 +65,7 @@ def match(
     require: Require = None,
 ) -> None:
     """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
-    # What can be refused without work is refused first, so that no minutes are lost.
-
+    # Check everything that needs no computation first.
     check_format(output)
     check_required(require)
     inputs = (source, target, *(landmarks or ()), *(descriptors or ()), *(truth or ()))
@@ -124,7 +123,7 @@ def match(
 
 
 def _with_short_names(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
-    """Put "source" and "target" into the names of stages in place of files, whose paths may be long."""
+    """Return a progress callback with "source" and "target" in the names of stages instead of long paths."""
     short_names = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(_SIDES), strict=True)}
 
     def report(stage: str, done: float) -> None:
@@ -135,7 +134,7 @@ def _with_short_names(stages: Callable[[str, float], None], names: tuple[str, st
 
 
 def _check_device(device: str) -> None:
-    """Raise when no array can be made on ``device``, before minutes of other work."""
+    """Raise an error where PyTorch cannot make an array on ``device``."""
     if device == "cpu":
         return
     try:
@@ -145,13 +144,13 @@ def _check_device(device: str) -> None:
         raise MissingDependency(f"--device {device} needs PyTorch. {remedy}.") from error
     try:
         torch.empty(1, dtype=torch.float64, device="cpu" if device == "torch" else device)
-    except Exception as error:  # PyTorch reports what is not there by whatever it runs into
+    except Exception as error:  # PyTorch has many errors for a missing device
         got = str(error).partition("\n")[0][:120] or type(error).__name__
         raise refuse(f"--device {device}", "a device that PyTorch can use", got, "use cpu") from error
 
 
 def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tuple[np.ndarray, np.ndarray]:
-    """The user's descriptors (n_s, d) and (n_t, d), checked."""
+    """Return the user's descriptors (n_s, d) and (n_t, d), checked."""
     descriptors = []
     for file, mesh in zip(files, meshes, strict=True):
         values = read_values(file).array

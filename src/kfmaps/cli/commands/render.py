@@ -62,7 +62,7 @@ def render_pair(
 @app.command("grid")
 def render_grid(
     folder: Annotated[Path, typer.Argument(help="Output folder of kfmaps batch.")],
-    source: Annotated[str, typer.Option(help="The shape whose colours are carried to all.")],
+    source: Annotated[str, typer.Option(help="The shape whose colours all targets get.")],
     output: Output,
     targets: Annotated[
         str | None, typer.Option(help="Names with commas between; default: all it was matched to.")
@@ -136,7 +136,7 @@ def render_curves(
 
 
 def _check(output: Path, force: bool, reads: Iterable[Path | None] = ()) -> None:
-    """Whether the figure can be written, before anything is read."""
+    """Check that the figure can be written, before anything is read."""
     picture_format(output)
     check_output(output, force, reads)
 
