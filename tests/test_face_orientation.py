@@ -15,7 +15,7 @@ from kfmaps._arrays import KfmapsWarning
 from kfmaps.cli.commands.info import description
 from kfmaps.fmap.precise import point_positions
 from kfmaps.geometry.clean import clean_mesh, face_outward
-from kfmaps.geometry.face_orientation import _enclosed_volume, _rim_and_agreement, doubled_faces, inward_faces
+from kfmaps.geometry.face_orientation import _boundary_and_agreement, _enclosed_volume, doubled_faces, inward_faces
 from kfmaps.geometry.mesh import Mesh, face_normals
 from kfmaps.io import MeshFile
 
@@ -61,7 +61,7 @@ def test_the_volume_of_an_open_box_is_that_of_the_box():
         corners, np.where(looks_outward(Mesh(corners - corners.mean(axis=0), hull))[:, None], hull, hull[:, ::-1])
     )
     open_box = box.faces[~(box.vertices[box.faces, 2] == 4).all(axis=1)]
-    rim, agree = _rim_and_agreement(open_box, 8)
+    rim, agree = _boundary_and_agreement(open_box, 8)
     assert agree
     assert len(rim) == 4
     assert _enclosed_volume(corners, open_box, rim, np.zeros(4, dtype=int)) == pytest.approx(8)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
-from kfmaps.geometry.cloud_surface import outward_faces
+from kfmaps.geometry.cloud_surface import boundary_of_cells, circumcentres
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_rows
 from kfmaps.geometry.topology import topology
 
@@ -102,17 +102,10 @@ def _triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
     """
     delaunay = Delaunay(points)
     corners = points[delaunay.simplices]
-    edges = corners[:, 1:] - corners[:, :1]
-    flat = np.abs(np.linalg.det(edges)) < 1e-14 * np.linalg.norm(edges, axis=2).prod(axis=1)
-    edges[flat] = np.eye(3)
-    centres = corners[:, 0] + np.linalg.solve(edges, 0.5 * (edges**2).sum(axis=2, keepdims=True))[:, :, 0]
+    offsets, flat = circumcentres(corners, 1e-14)
+    centres = corners[:, 0] + offsets
     height = ((centres[:, None] - corners) * normals[delaunay.simplices]).sum(axis=(1, 2))
-    inside = (height < 0) & ~flat
-
-    neighbour = delaunay.neighbors
-    shell = inside[:, None] & ((neighbour < 0) | ~inside[neighbour])
-    tetrahedron, opposite = np.nonzero(shell)
-    return outward_faces(points, delaunay.simplices, tetrahedron, opposite)[0].astype(np.int64)
+    return boundary_of_cells(delaunay, (height < 0) & ~flat)
 
 
 def _is_closed(mesh: Mesh, genus: int) -> bool:

@@ -126,7 +126,7 @@ def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array,
 
 @contextmanager
 def _map_of_threads(rows: int) -> Iterator[Map]:
-    """``map``, or that of a pool of threads where these pay."""
+    """Yield ``map``, or that of a pool of threads where these pay."""
     if (workers := n_threads()) > 1 and rows >= THREADED:
         with ThreadPoolExecutor(workers) as pool:
             yield pool.map
@@ -143,32 +143,38 @@ def _solve(
     each: Map,
     progress: Callable[[float], None] | None,
 ) -> Eigenpairs:
-    """The eigenpairs of a checked pencil; see :func:`smallest_eigenpairs`."""
-    # A vertex without mass takes the value that its neighbours give it; this much mass moves no eigenvalue by more.
+    """Return the eigenpairs of a checked pencil; see :func:`smallest_eigenpairs`."""
+    # At a vertex without mass a function is harmonic. So little mass changes no eigenvalue.
     floored = np.maximum(mass, 1e-10 * mass.mean())
     order = fill_order(matrix)
     if order is not None:
         matrix, floored = matrix[order][:, order], floored[order]
     dense = len(mass) <= max(400, 4 * k + 200)
     if not dense and tolerance >= LOOSE:
-        rough = _nearly(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
-        if rough is not None:
-            return _signed(rough, order)
+        loose = _solve_loosely(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
+        if loose is not None:
+            return _with_signs(loose, order)
         tolerance = EXACT
     pencil = _Pencil(matrix, floored, order is not None, each)
     if progress is not None:
-        pencil.solve = _counted(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
+        pencil.solve = _report_solves(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
     vectors = _vectors(pencil, k, dense, tolerance, np.random.default_rng(rng))
-    found = pencil.residuals(vectors)
+    values, residuals = pencil.residuals(vectors)
     for _ in range(2):  # specks and caps make the Lanczos basis lose digits
-        if not len(_missed(pencil, vectors, *found, tolerance)):
+        if not len(_unconverged(pencil, vectors, values, residuals, tolerance)):
             break
-        vectors = _improved(pencil, pencil.root[:, None] * vectors)
-        found = pencil.residuals(vectors)
-    return _signed(_checked(pencil, vectors, *found, tolerance), order)
+        vectors = _rayleigh_ritz(pencil, pencil.root[:, None] * vectors)
+        values, residuals = pencil.residuals(vectors)
+    bad = _unconverged(pencil, vectors, values, residuals, tolerance)
+    if len(bad):
+        raise NotConverged(
+            f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
+            f"{residuals[bad].max():.1e}. Look for parts without area, or for coordinates of very different size."
+        )
+    return _with_signs(_ascending(values, vectors, residuals), order)
 
 
-def _nearly(
+def _solve_loosely(
     matrix: SparseMatrix,
     mass: np.ndarray,
     k: int,
@@ -178,54 +184,54 @@ def _nearly(
     each: Map,
     progress: Callable[[float], None] | None,
 ) -> Eigenpairs | None:
-    """The pairs to a loose ``tolerance``, factor and basis in single precision; ``None`` where that does not serve.
+    """Return the pairs to a loose ``tolerance``, with factor and basis in single precision, or ``None``.
 
-    A larger shift than is needed else: what rounding does to the Krylov basis grows by the ratio of the operator's
-    largest eigenvalue to the smallest wanted one. A matrix that single precision is too little for, as one with needle
-    triangles, gives an operator with other eigenvalues than the quotients, in double precision, of its vectors.
+    The shift is larger than usual, since rounding errors of the Krylov basis grow by the ratio of the operator's
+    largest eigenvalue to the smallest one of the pairs. Single precision fails for some matrices, as those with needle
+    triangles. Then eigenvalues and Rayleigh quotients, in double precision, differ, and the result is ``None``.
     """
     try:
         pencil = _Pencil(matrix, mass, order is not None, each, _LOOSE_SHIFT, np.float32)
         block = pencil.root[:, None] * rng.normal(size=(len(mass), 4))
-        found = pencil.solve(block)
-        left = matrix @ found + (_LOOSE_SHIFT * pencil.unit * mass)[:, None] * found - block
-        if not np.linalg.norm(left) <= _MAX_LOOSE_RESIDUAL * np.linalg.norm(block):
+        solution = pencil.solve(block)
+        residual = matrix @ solution + (_LOOSE_SHIFT * pencil.unit * mass)[:, None] * solution - block
+        if not np.linalg.norm(residual) <= _MAX_LOOSE_RESIDUAL * np.linalg.norm(block):
             return None
         if progress is not None:
-            pencil.solve = _counted(pencil.solve, (2.4 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
-        found = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng, each=each)
+            pencil.solve = _report_solves(pencil.solve, (2.4 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
+        largest = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng, each=each)
     except NotConverged:
         return None
-    vectors = found.vectors[:, :k]
-    vectors /= pencil.root[:, None]  # in place: of a large mesh they are the most that is kept
+    vectors = largest.vectors[:, :k]
+    vectors /= pencil.root[:, None]  # in place, since they take most of the memory of a large mesh
     values, residuals = pencil.residuals(vectors)
-    thought = 1 / found.values[:k] - _LOOSE_SHIFT * pencil.unit
-    if not (np.abs(thought - values) <= 1e-3 * (values + pencil.unit)).all():
+    eigenvalues = 1 / largest.values[:k] - _LOOSE_SHIFT * pencil.unit
+    if not (np.abs(eigenvalues - values) <= 1e-3 * (values + pencil.unit)).all():
         return None
-    if found.stages > 1:
-        vectors = _improved(pencil, pencil.root[:, None] * vectors)
+    if largest.stages > 1:
+        vectors = _rayleigh_ritz(pencil, pencil.root[:, None] * vectors)
         values, residuals = pencil.residuals(vectors)
     return _ascending(values, vectors, residuals)
 
 
-def _counted(
+def _report_solves(
     solve: Callable[[np.ndarray], np.ndarray], expected: float, progress: Callable[[float], None]
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """``solve``, which tells how many of about ``expected`` blocks have been solved for."""
+    """Return ``solve`` with a report of how many of about ``expected`` calls are done."""
     done = 0
 
-    def counted(block: np.ndarray) -> np.ndarray:
+    def solve_and_report(block: np.ndarray) -> np.ndarray:
         nonlocal done
-        found = solve(block)
+        solution = solve(block)
         done += 1
         progress(min(done / expected, 0.99))
-        return found
+        return solution
 
-    return counted
+    return solve_and_report
 
 
 class _Pencil:
-    """``(L, A)`` and the factor of ``L + σA``, with ``σ`` so many times as large as the unit."""
+    """The pencil ``(L, A)`` and the factor of ``L + σA``, with ``σ`` the ``shift`` times ``4π / sum(mass)``."""
 
     def __init__(
         self,
@@ -246,9 +252,9 @@ class _Pencil:
         return self.root[:, None] * self.solve(self.root[:, None] * block)
 
     def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return Rayleigh quotients and scaled residuals of the columns, a few of which at once fit the cache."""
-        found = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], 16)]
-        return np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
+        """Return Rayleigh quotients and scaled residuals of the columns, by blocks that fit the cache."""
+        parts = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], 16)]
+        return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
 
     def _residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         images, weighted = self.matrix @ vectors, self.mass[:, None] * vectors
@@ -259,21 +265,21 @@ class _Pencil:
 
 
 def _vectors(pencil: _Pencil, k: int, dense: bool, tolerance: float, rng: np.random.Generator) -> np.ndarray:
-    """Eigenvectors (n, k), orthonormal in the mass, in no strict order."""
+    """Return eigenvectors (n, k), orthonormal in the mass, nearly in order."""
     n = len(pencil.mass)
     if dense:
         inverse = pencil.inverse(np.eye(n))
         _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
-        return _improved(pencil, vectors)
-    found = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
-    if found.stages == 1:
-        return found.vectors[:, :k] / pencil.root[:, None]
-    # Pairs of different stages are decoupled only to the tolerance of the largest: mend that.
-    return _improved(pencil, found.vectors[:, :k])
+        return _rayleigh_ritz(pencil, vectors)
+    largest = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
+    if largest.stages == 1:
+        return largest.vectors[:, :k] / pencil.root[:, None]
+    # Pairs of different stages are decoupled only to the tolerance of the largest.
+    return _rayleigh_ritz(pencil, largest.vectors[:, :k])
 
 
-def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
-    """One step of subspace iteration with Rayleigh-Ritz; takes scaled vectors, returns true ones."""
+def _rayleigh_ritz(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
+    """Return eigenvectors after a step of subspace iteration with Rayleigh-Ritz, from vectors times ``√A``."""
     weighted = pencil.root[:, None] * vectors
     images = np.hstack([pencil.solve(weighted[:, s : s + 8]) for s in range(0, vectors.shape[1], 8)])
     scaled = pencil.root[:, None] * images
@@ -284,42 +290,29 @@ def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
     return images @ rotation
 
 
-def _missed(
+def _unconverged(
     pencil: _Pencil, vectors: np.ndarray, values: np.ndarray, residuals: np.ndarray, tolerance: float
 ) -> np.ndarray:
-    """Which of the pairs have ``residuals`` above the tolerance and what rounding costs."""
+    """Return the pairs with ``residuals`` above the tolerance and the rounding errors."""
     bad = np.flatnonzero(~(residuals <= tolerance))
     if len(bad):
-        spread = np.linalg.norm(abs(pencil.matrix) @ abs(vectors[:, bad]), axis=0)
-        rounding = 8 * np.finfo(float).eps * spread
+        size = np.linalg.norm(abs(pencil.matrix) @ abs(vectors[:, bad]), axis=0)
+        rounding = 8 * np.finfo(float).eps * size
         scale = (values[bad] + pencil.unit) * np.linalg.norm(pencil.mass[:, None] * vectors[:, bad], axis=0)
         bad = bad[~(residuals[bad] <= tolerance + rounding / scale)]
     return bad
 
 
-def _checked(
-    pencil: _Pencil, vectors: np.ndarray, values: np.ndarray, residuals: np.ndarray, tolerance: float
-) -> Eigenpairs:
-    """Sorted and checked pairs: the ``values`` are Rayleigh quotients."""
-    bad = _missed(pencil, vectors, values, residuals, tolerance)
-    if len(bad):
-        raise NotConverged(
-            f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
-            f"{residuals[bad].max():.1e}. Look for parts without area, or for coordinates of very different size."
-        )
-    return _ascending(values, vectors, residuals)
-
-
 def _ascending(values: np.ndarray, vectors: np.ndarray, residuals: np.ndarray) -> Eigenpairs:
-    """The pairs by their values; the columns of ``vectors (n, k)`` change places in it."""
+    """Return the pairs in ascending order; the columns of ``vectors (n, k)`` are reordered in place."""
     order = np.argsort(values, kind="stable")
     moved = np.flatnonzero(order != np.arange(len(order)))
     vectors[:, moved] = vectors[:, order[moved]]
     return Eigenpairs(values[order], vectors, residuals[order])
 
 
-def _signed(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
-    """The pairs in the caller's order of rows, with definite signs."""
+def _with_signs(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
+    """Return the pairs in the caller's order of rows, with definite signs."""
     vectors = pairs.vectors
     if order is not None:
         vectors = np.empty_like(pairs.vectors)
