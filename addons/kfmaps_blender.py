@@ -17,7 +17,7 @@ import numpy as np
 from kfmaps import Mesh, match
 from kfmaps.io import MeshFile, transfer
 from kfmaps.io.character import transfer_character
-from kfmaps.io.export import textured
+from kfmaps.io.export import with_source_texture
 from kfmaps.io.record import Picture
 from kfmaps.matching.result import Match
 
@@ -150,7 +150,7 @@ def carry_texture(source: Any, target: Any, points: Match) -> None:
 def _dressed(shape: MeshFile, target: Any, points: Match) -> tuple[MeshFile, np.ndarray, np.ndarray]:
     """The target with the texture of ``shape``, and what :func:`loop_uv` says of it."""
     mesh, loops = read_mesh(target)
-    made = textured(shape, MeshFile(mesh), points)
+    made = with_source_texture(shape, MeshFile(mesh), points)
     return made, *loop_uv(made, loops, len(target.data.loops))
 
 

@@ -71,7 +71,8 @@ def _uses_tree(points: int, dimensions: int) -> bool:
 def is_approximate(n_queries: int, n_points: int, dimensions: int, exact: bool | None) -> bool:
     """Return whether :func:`nearest` searches NumPy arrays of these sizes approximately, in single precision.
 
-    ``exact``: as for :func:`nearest`.
+    ``n_queries`` and ``n_points``: how many rows both have; ``dimensions``: their columns; ``exact``: as for
+    :func:`nearest`.
     """
     has_many_pairs = exact is False or (exact is None and n_queries * n_points > EXACT_PAIRS)
     return has_many_pairs and not _uses_tree(n_points, dimensions)
