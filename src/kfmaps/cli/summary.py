@@ -83,10 +83,8 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
             if written.suffix.lower() in (".npz", ".mat")
             else _SHAPE_OPTIONS.format(*(quote(f.path) for _, f in sides))
         )
-        rows += [
-            ("written", printable(str(written))),
-            ("next", printable(f"kfmaps view {quote(str(written))}{shapes}")),
-        ]
+        rows.append(("written", printable(str(written))))
+        rows.append(("next", printable(f"kfmaps view {quote(str(written))}{shapes}")))
     return rows
 
 

@@ -244,11 +244,8 @@ def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
             break
         scale *= 0.8
     triangles = np.zeros((len(a), 3, 2))
-    triangles[:, 1, 0], triangles[:, 2, 0], triangles[:, 2, 1] = (
-        widths,
-        scale * x * widths / np.maximum(scale * a, 1e-9),
-        heights,
-    )
+    triangles[:, 1, 0], triangles[:, 2, 1] = widths, heights
+    triangles[:, 2, 0] = scale * x * widths / np.maximum(scale * a, 1e-9)
     order = (np.arange(3) - longest_edge[:, None]) % 3
     return place[:, None] + np.take_along_axis(triangles, order[:, :, None], axis=1), int(top + row_height)
 
@@ -290,7 +287,7 @@ def transfer_texture(
         return replace(textured, picture=encode_png(pixels))
     height, width = pixels.shape[:2]
     corners = uv_map.uv[uv_map.uv_faces]
-    # Rows below end the repetition of the picture: all faces move into its first copy, and those over its edge are
+    # With rows below, the picture does not repeat. All faces move into its first copy, and those over its edge are
     # drawn anew as well.
     tile = np.floor(corners.min(axis=1) + 1e-6)
     redrawn = uv_map.torn | ((corners.max(axis=1) - 1e-6 > tile + 1).any(axis=1))
@@ -302,7 +299,6 @@ def transfer_texture(
     canvas = np.concatenate([pixels, np.zeros((rows, width, 3))])
     baked = _bake(source, replace(uv_map, torn=redrawn), pixels, atlas, canvas, height)
     shifted = (corners - tile[:, None]) * [1, height / total_height] + [0, rows / total_height]
-    uv, uv_faces = np.unique(
-        np.where(redrawn[:, None, None], atlas, shifted).reshape(-1, 2), axis=0, return_inverse=True
-    )
+    corners = np.where(redrawn[:, None, None], atlas, shifted).reshape(-1, 2)
+    uv, uv_faces = np.unique(corners, axis=0, return_inverse=True)
     return replace(textured, uv=uv, uv_faces=uv_faces.reshape(-1, 3), picture=baked)
