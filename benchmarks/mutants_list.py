@@ -154,7 +154,7 @@ MUTANTS = tuple(
             "np.where(rows == columns, 1.0, 1.0)",
             "test_energy -k packed",
         ),
-        ("(lost > rtol * lost[-1])", "(lost > 2 * rtol * lost[-1])", f"{FORMULAS} -k tolerance"),
+        ("(dropped > rtol * dropped[-1])", "(dropped > 2 * rtol * dropped[-1])", f"{FORMULAS} -k tolerance"),
         (
             "_strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)",
             "_strongest(packed_s @ packed_s.T, rtol)",

@@ -1,6 +1,6 @@
-"""SHOT: how the surface around each vertex is bent, direction by direction, in a frame of its own.
+"""SHOT: histograms of the normals around each vertex, in a local reference frame.
 
-Unlike heat and wave signatures it tells left from right: a mirrored shape has others (:func:`mirror_shot`).
+Unlike heat and wave signatures it distinguishes left from right (:func:`mirror_shot`).
 
 Tombari, Salti and Di Stefano, "Unique signatures of histograms for local surface description", ECCV 2010.
 """
@@ -26,17 +26,17 @@ _BINS = 10  # steps of the cosine from -1 to 1: each histogram has a value at ea
 _TIE = 1e-6  # relative difference up to which sums count as equal
 
 _PAIRS = 60_000
-"""Pairs of a vertex and a support point in one block: work arrays that fit the cache are nearly twice as fast."""
-_EACH = 8  # one vertex of so many is asked how many those are
+"""Pairs of a vertex and a support point in one block, whose work arrays fit the cache, which is twice as fast."""
+_EACH = 8  # pairs are counted at one vertex of so many
 
 
 @dataclass(frozen=True, eq=False)
 class _Support:
-    """Points (p, 3) that stand for the surface, unit normals (p, 3), the area that each stands for (p,)."""
+    """Support points that sample the surface."""
 
-    points: np.ndarray
-    normals: np.ndarray
-    weights: np.ndarray
+    points: np.ndarray  # (p, 3)
+    normals: np.ndarray  # (p, 3)
+    weights: np.ndarray  # (p,): areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +106,7 @@ def shot(
     at : (q,) int64, optional
         Vertices whose descriptors are wanted; all when not given.
     progress : callable, optional
-        Told how much is done, from 0 to 1.
+        Called with how much is done, from 0 to 1.
 
     Returns
     -------
@@ -130,11 +130,11 @@ def shot(
     if len(mesh.faces) == 0:
         raise refuse("mesh", "faces, which give the normals", "a point cloud", "triangulate it first")
     check(mesh.vertices, "vertices")
-    part = clean_mesh(mesh)
-    if not part.whole:
+    cleaned = clean_mesh(mesh)
+    if not cleaned.whole:
         if at is None:
-            return shot(part.mesh, radius, samples=samples, progress=progress)[part.to_clean]
-        return shot(part.mesh, radius, samples=samples, at=part.to_clean[at], progress=progress)
+            return shot(cleaned.mesh, radius, samples=samples, progress=progress)[cleaned.to_clean]
+        return shot(cleaned.mesh, radius, samples=samples, at=cleaned.to_clean[at], progress=progress)
     mesh = unit_area(mesh)
     support = _surface_support(mesh, vertex_normals(mesh), samples)
     tree = KDTree(support.points)
@@ -145,7 +145,7 @@ def shot(
     def fill(block: np.ndarray) -> None:
         nonlocal done
         result[block] = _describe(centres[block], tree, support, radius)
-        done += len(block)  # one of several threads may be forgotten: it is only told
+        done += len(block)  # threads may overwrite each other's count, which is only for the progress
         if progress is not None:
             progress(done / len(result))
 
@@ -166,7 +166,7 @@ def mirror_shot(descriptors: np.ndarray) -> np.ndarray:
 
 
 def _surface_support(mesh: Mesh, normals: np.ndarray, samples: int) -> _Support:
-    """Points inside the faces of a mesh of unit area, about ``samples`` and at most twice as many.
+    """Return support points of a mesh of unit area, about ``samples`` and at most twice as many.
 
     Each face gives the barycentres of its m² equal parts, m chosen by its area; normals are interpolated.
     """
@@ -184,7 +184,7 @@ def _surface_support(mesh: Mesh, normals: np.ndarray, samples: int) -> _Support:
 
 
 def _barycentres(m: int) -> list[np.ndarray]:
-    """Barycentric coordinates of the centres of the m² equal triangles that a triangle divides into."""
+    """Return the barycentric coordinates of the centres of the m² equal parts of a triangle."""
     upward = [(i + 1 / 3, j + 1 / 3) for i in range(m) for j in range(m - i)]
     downward = [(i + 2 / 3, j + 2 / 3) for i in range(m - 1) for j in range(m - 1 - i)]
     return [np.array([a, b, m - a - b]) / m for a, b in upward + downward]
@@ -224,7 +224,7 @@ def _blocks(vertices: np.ndarray, tree: KDTree, radius: float) -> list[np.ndarra
 
 
 def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: float) -> np.ndarray:
-    """Descriptors of a few vertices, (b, 352)."""
+    """Return the descriptors of a block of vertices, (b, 352)."""
     found = KDTree(centres).sparse_distance_matrix(tree, radius, output_type="ndarray")
     order = np.argsort(found["i"].astype(np.min_scalar_type(len(centres))), kind="stable")  # radix sort: small numbers
     order = order[found["v"].take(order) > 1e-9 * radius]
@@ -239,7 +239,7 @@ def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: floa
 
 
 def _frames(pairs: _Pairs) -> np.ndarray:
-    """Right-handed frames, (count, 3, 3), one axis a row; zero where there is none."""
+    """Return the right-handed local reference frames, (count, 3, 3), one axis a row; zero where there is none."""
     offset = pairs.offset
     near = pairs.weight * (1 - pairs.distance).clip(0, np.inf)
     lever = near * offset
@@ -257,7 +257,7 @@ def _frames(pairs: _Pairs) -> np.ndarray:
 
 
 def _towards(pairs: _Pairs, axis: np.ndarray, fallback: np.ndarray) -> np.ndarray:
-    """``axis`` (count, 3) turned to the heavier side, or to the side of ``fallback`` where both weigh the same."""
+    """Return ``axis`` (count, 3) towards the side with more area, or that of ``fallback`` where both are equal."""
     height = pairs.along(axis, pairs.offset)
     votes = pairs.total(pairs.weight * np.sign(np.where(np.abs(height) < _TIE, 0, height)))
     tie = np.abs(votes) <= _TIE * pairs.total(pairs.weight)
@@ -266,7 +266,7 @@ def _towards(pairs: _Pairs, axis: np.ndarray, fallback: np.ndarray) -> np.ndarra
 
 
 def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """Histograms with quadrilinear interpolation, (count, 352).
+    """Return histograms with quadrilinear interpolation, (count, 352).
 
     In azimuth and cosine a pair is shared between two of many entries, in elevation and distance there are only two: so
     this is a sparse matrix (azimuth, cosine) times a dense one (elevation, distance).

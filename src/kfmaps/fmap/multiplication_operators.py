@@ -16,13 +16,13 @@ from kfmaps.geometry.basis import Basis
 def truncate_features(
     source: Basis, features_s: Array, target: Basis, features_t: Array, rtol: float
 ) -> tuple[Array, Array]:
-    """Rotate the features of both shapes jointly and drop those that matter least.
+    """Rotate the features of both shapes jointly and drop the weakest.
 
-    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The squared
-    norm of a feature's operator is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``, since it
-    is a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the features
-    that are dropped have operators whose summed squared norm is at most ``rtol`` of the sum of all bounds, which was
-    1.03 times the operators' own. So far fewer operators need to be formed at all.
+    The commutativity energy does not change under a rotation of the features of both shapes. The squared norm of a
+    feature's operator is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``, since it is a
+    projection of multiplication by ``w``. The features are rotated to the eigenbasis of the Gram matrix with these
+    weights. The operators of the dropped ones have at most ``rtol`` of the sum of all bounds, which is about 1.03 times
+    that of the squared norms.
 
     ``features_s (n_s, r)`` and ``features_t (n_t, r)`` give (n_s, r') and (n_t, r'); ``rtol``: from 0 to below 1.
     """
@@ -58,7 +58,7 @@ def multiplication_operators(basis: Basis, features: Array, block: int = 512, si
     if single and fill is _fill_products:
         weighted, functions = weighted.astype(np.float32), functions.astype(np.float32)
 
-    def share(parts: list[slice]) -> Array:
+    def sum_blocks(parts: list[slice]) -> Array:
         total, products = None, None
         for part in parts:
             phi = xp.asarray(functions[part, :].T, copy=True)  # rows of points side by side in memory
@@ -71,18 +71,18 @@ def multiplication_operators(basis: Basis, features: Array, block: int = 512, si
     count = min(n_threads(), len(parts)) if is_numpy(features) else 1
     shares = [parts[i::count] for i in range(count)]
     total = None
-    for part in parallel(share, shares):
-        total = part if total is None else total + part
+    for partial in parallel(sum_blocks, shares):
+        total = partial if total is None else total + partial
     return (total * scale[:, None]).T
 
 
 def _new_products(phi: Array, _: Array | None) -> Array:
-    """All products ``(k(k+1)/2, m)`` of two rows of ``phi (k, m)``."""
+    """Return all products ``(k(k+1)/2, m)`` of two rows of ``phi (k, m)``."""
     return namespace(phi).concat([phi[i : i + 1, :] * phi[i:, :] for i in range(phi.shape[0])])
 
 
 def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
-    """As :func:`_new_products`, into the memory of ``old`` ones of that size: fresh memory costs as much as they do."""
+    """Do as :func:`_new_products` in the memory of ``old`` ones of that size, since fresh memory takes as much time."""
     k, m = phi.shape
     products = old if old is not None and old.shape[1] == m else np.empty((k * (k + 1) // 2, m), dtype=phi.dtype)
     start = 0
@@ -109,11 +109,11 @@ def unpack_operators(packed: Array) -> Array:
 
 
 def truncate_operators(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Array]:
-    """Rotate the operators of both shapes jointly and drop those that carry next to nothing.
+    """Rotate the operators of both shapes jointly and drop the weakest.
 
-    The rotation of the joint singular value decomposition puts as much as possible into few operators; those beyond
-    hold at most ``rtol`` of the summed squared norm of all operators of both shapes, which bounds what leaving them out
-    can change in the energy. With ``rtol=0`` only null operators go.
+    The rotation is that of the joint singular value decomposition. The dropped operators have at most ``rtol`` of the
+    summed squared norm of all operators of both shapes, which bounds the change of the energy. With ``rtol=0`` only
+    null operators are dropped.
 
     ``packed_s (r, k_s(k_s+1)/2)`` and ``packed_t (r, k_t(k_t+1)/2)``; ``rtol``: from 0 to below 1.
     """
@@ -128,12 +128,12 @@ def _check_rtol(rtol: float) -> None:
 
 
 def _strongest(gram: Array, rtol: float) -> Array:
-    """Eigenvectors of ``gram``, strongest first, without those that hold at most ``rtol`` of its trace together.
+    """Return the eigenvectors of ``gram``, strongest first, without the weakest that have ``rtol`` of its trace.
 
-    They are constants to PyTorch: where eigenvalues coincide, eigenvectors have no derivative.
+    PyTorch takes them for constants, since eigenvectors of equal eigenvalues have no derivative.
     """
     energy, rotation = np.linalg.eigh(to_numpy(gram))
-    share = energy.clip(min=0.0)
-    lost = np.cumsum(share)
-    keep = np.flatnonzero((lost > rtol * lost[-1]) & (share > 1e-15 * share[-1]))[::-1]
+    energy = energy.clip(min=0.0)
+    dropped = np.cumsum(energy)
+    keep = np.flatnonzero((dropped > rtol * dropped[-1]) & (energy > 1e-15 * energy[-1]))[::-1]
     return like(take(rotation, keep, axis=1), gram)

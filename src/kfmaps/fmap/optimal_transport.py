@@ -1,18 +1,16 @@
-"""Maps of all area to all area: a functional map drawn to the soft point map that moves every bit of both shapes.
+"""A penalty by optimal transport: it draws a functional map to a soft point map that covers the area of both shapes.
 
-A small functional map is a low-rank description of a point map, and nothing in it says that the whole of both surfaces
-is reached. Written in the basis of points instead of eigenfunctions the same map is sparse, and what it should be is
-plain: a plan that moves the area of the source to that of the target, from each point all of it and to each point no
-more than its own (Gasparetto, Cosmo, Rodolà, Bronstein and Torsello, Spatial maps, 2017; their algorithm is another).
-Both are had at once by
+A small functional map is a low-rank description of a point map, which need not reach all of both surfaces. In the basis
+of points instead of eigenfunctions the same map is a transport plan, which should move all area of the source, and to
+each point of the target no more than its own (Gasparetto, Cosmo, Rodolà, Bronstein and Torsello, Spatial maps, 2017;
+their algorithm is another). The penalty is
 
     value(C) = min over Π ≥ 0 of  ½ Σ_ij Π_ij ‖φ_t(i) − C φ_s(j)‖² + ε KL(Π | a_t a_sᵀ)
                                   + ρ KL(Π 1 | a_t) + ρ KL(Πᵀ 1 | a_s),
 
-unbalanced optimal transport between the target's points and the images of the source's (Chizat et al. 2018), found by
-scaling rows and columns in turn (Sinkhorn 1967). For a fixed Π it is quadratic in C; as a minimum of such functions it
-lies below each and touches that of its own Π: a penalty (:class:`kfmaps.fmap.losses.Penalty`), which goes together with
-every term, kernel, constraint and solver.
+unbalanced optimal transport between the target's points and the images of the source's (Chizat et al. 2018), computed
+by scaling rows and columns in turn (Sinkhorn 1967). For a fixed Π it is quadratic in C, and so is its majorizer
+(:class:`kfmaps.fmap.losses.Penalty`).
 """
 
 from __future__ import annotations
@@ -27,7 +25,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import stratified_samples
 
 _STIFFNESS = 10.0
-"""``ρ / ε``: how dear it is to move less or more than a point's area, against a blurred plan."""
+"""``ρ / ε``: cost of moving less or more than a point's area, against that of a blurred plan."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,11 +56,11 @@ class TransportPenalty:
         return source_term(gram, cross, total)
 
     def _solved(self, C: Array) -> tuple[Array, float]:
-        """The plan at ``C`` and the value; those of the last map are kept, since both are asked for in turn."""
+        """Return the plan at ``C`` and the value, cached for the last map."""
         if self._last.get("map") is not C:
             cost = _costs(C, self.functions_s, self.functions_t)
-            self._last.update(map=C, found=_transport(cost, self.mass_t, self.mass_s, self.blur))
-        return self._last["found"]
+            self._last.update(map=C, solution=_transport(cost, self.mass_t, self.mass_s, self.blur))
+        return self._last["solution"]
 
 
 def transport_penalty(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> TransportPenalty:
@@ -86,7 +84,7 @@ def transport_penalty(C: Array, source: Basis, target: Basis, blur: float = 0.3)
 
 
 def _costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
-    """``½‖φ_t(i) − C φ_s(j)‖²``, (m_t, m_s)."""
+    """Return ``½‖φ_t(i) − C φ_s(j)‖²``, (m_t, m_s)."""
     xp = namespace(C)
     images = functions_s @ C.T
     squares = xp.sum(functions_t**2, axis=1)[:, None] + xp.sum(images**2, axis=1)[None, :]
@@ -95,10 +93,10 @@ def _costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
 
 
 def _transport(cost: Array, a: Array, b: Array, blur: float) -> tuple[Array, float]:
-    """Unbalanced optimal transport for ``cost (m, n)`` between masses ``a (m,)`` and ``b (n,)``, and its value.
+    """Return the plan of unbalanced transport for ``cost (m, n)`` between masses ``a (m,)``, ``b (n,)``, and its value.
 
-    Potentials ``f``, ``g`` of rows and columns are improved in turn; what the scalings have gathered is put into them
-    from time to time, so that nothing under- or overflows.
+    Potentials ``f``, ``g`` of rows and columns are improved in turn. The scalings are absorbed into them from time to
+    time, so that nothing under- or overflows.
     """
     xp = namespace(cost)
     tiny = 1e-300  # keeps logarithms finite
@@ -129,7 +127,7 @@ def _transport(cost: Array, a: Array, b: Array, blur: float) -> tuple[Array, flo
 
 
 def _log_sum(values: Array, axis: int) -> Array:
-    """``log Σ exp`` along an axis."""
+    """Return ``log Σ exp`` along an axis."""
     xp = namespace(values)
     top = xp.max(values, axis=axis, keepdims=True)
     return xp.log(xp.sum(xp.exp(values - top), axis=axis)) + (top[:, 0] if axis else top[0, :])

@@ -1,10 +1,10 @@
-"""Functions carried beyond the basis, through products of basis functions.
+"""Transfer of functions beyond the span of the basis, through products of basis functions.
 
-A functional map of k functions carries only what lies in their span. The map of a point map carries products to
-products: ``T(fg) = T(f) T(g)``. So a function is written in the basis *and* in products of basis functions, by least
-squares, and the image is made of the images of the basis functions and of their products (Nogneng, Melzi, Rodolà,
-Castellani, Bronstein and Ovsjanikov, Improved functional mappings via product preservation, 2018). No larger map is
-needed: it is a closed form in C.
+A functional map of k functions transfers only their span. But a map that comes from a point map preserves products:
+``T(fg) = T(f) T(g)``. So a function is written in the basis *and* in products of basis functions, by least squares, and
+its image is the same combination of the images of the basis functions and of their products (Nogneng, Melzi, Rodolà,
+Castellani, Bronstein and Ovsjanikov, Improved functional mappings via product preservation, 2018). It is a closed form
+in C.
 """
 
 from __future__ import annotations

@@ -24,8 +24,8 @@ class ClosestPoints:
 def closest_points(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> ClosestPoints:
     """Return the closest point on a surface to each of some points, by libigl's search tree.
 
-    ``points (q, 3)``; ``vertices (n, 3)``. ``faces (f, 3)``: faces without area count as the line or point that they
-    are. Of several faces at the same distance any may be the answer.
+    ``points (q, 3)``; ``vertices (n, 3)``; ``faces (f, 3)``, possibly without area. Any of several faces at the same
+    distance may be returned.
     """
     if len(faces) == 0:
         raise refuse("mesh", "a surface with faces", "a point cloud", "triangulate it first")
@@ -41,10 +41,10 @@ def closest_among(
     """Return the closest point to each of some points on given faces.
 
     ``points (q, 3)``; ``vertices (n, 3)``; ``faces (f, 3)``; ``candidates (m,)``: rows of ``faces``; ``owner (m,)``:
-    the point that each candidate is for: ascending, and naming every point at least once. Of several candidates at
-    the same distance the first is taken.
+    the point of each candidate, ascending, every point at least once. The first of several candidates at the same
+    distance is returned.
     """
-    # One coordinate of all points lies together: (3, m).
+    # Stored coordinate by coordinate, (3, m).
     x, (i, j, k) = np.ascontiguousarray(vertices.T), faces[candidates].T
     a, u, v = (x.take(corner, axis=1) for corner in (i, j, k))
     r = np.ascontiguousarray(points.T).take(owner, axis=1)
@@ -56,8 +56,8 @@ def closest_among(
     squared = np.maximum(squares - gain, 0.0)
     hits = first_minima(squared, owner)
     s, t = s[hits], t[hits]
-    places = np.ascontiguousarray((a[:, hits] + s * u[:, hits] + t * v[:, hits]).T)
-    return ClosestPoints(candidates[hits], barycentric_weights(s, t), places, np.sqrt(squared[hits]))
+    closest = np.ascontiguousarray((a[:, hits] + s * u[:, hits] + t * v[:, hits]).T)
+    return ClosestPoints(candidates[hits], barycentric_weights(s, t), closest, np.sqrt(squared[hits]))
 
 
 def closest_weights(
@@ -76,7 +76,7 @@ def closest_weights(
     s, t = (e22 * r1 - e12 * r2) * inverse, (e11 * r2 - e12 * r1) * inverse
     outside = np.flatnonzero((np.minimum(s, t) < 0) | (s + t > 1) | (det <= 1e-14 * e11 * e22))
     if len(outside):
-        # Then it lies on an edge: the best of the three.
+        # The closest point lies on an edge.
         a11, a12, a22, p, q = (x[outside] for x in (e11, e12, e22, r1, r2))
         on_u = np.clip(p / np.maximum(a11, tiny), 0, 1)
         on_v = np.clip(q / np.maximum(a22, tiny), 0, 1)
@@ -101,7 +101,7 @@ def barycentric_weights(s: np.ndarray, t: np.ndarray) -> np.ndarray:
 
 
 def barycentric_matrix(face_of: np.ndarray, weights: np.ndarray, faces: np.ndarray, n: int) -> csr_array:
-    """Return the sparse ``(q, n)`` that takes values at vertices to points inside triangles.
+    """Return the sparse matrix ``(q, n)`` that interpolates values at vertices to points inside triangles.
 
     ``face_of (q,)``: the face that each point lies in; ``weights (q, 3)``: its barycentric coordinates; ``faces (f,
     3)``; ``n``: number of vertices.
@@ -111,9 +111,9 @@ def barycentric_matrix(face_of: np.ndarray, weights: np.ndarray, faces: np.ndarr
 
 
 def first_minima(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
-    """Return for each owner the first entry of some values that is its least, (q,) int64.
+    """Return the first entry with the least value of each owner, (q,) int64.
 
-    ``values (m,)``; ``owner (m,)``: ascending, and naming every owner at least once.
+    ``values (m,)``; ``owner (m,)``: ascending, every owner at least once.
     """
     first = np.flatnonzero(np.diff(owner, prepend=-1))
     least = np.minimum.reduceat(values, first)

@@ -1,4 +1,4 @@
-"""A mesh is its vertices and faces; everything about it is a function of those two arrays."""
+"""Triangle meshes and point clouds, and plain functions of their vertices and faces."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ def check_is_mesh(mesh: object, name: str = "mesh") -> None:
 
 
 def _face_vectors(mesh: Mesh) -> np.ndarray:
-    """Cross products of two edges of each face: normals as long as twice the area, (f, 3)."""
-    # One coordinate of all faces lies together: a fifth of the time.
+    """Return the cross product of two edges of each face, its normal with twice its area for length, (f, 3)."""
+    # Stored coordinate by coordinate, which takes a fifth of the time.
     x = np.ascontiguousarray(mesh.vertices.T)
     a, u, v = (x.take(corner, axis=1) for corner in mesh.faces.T)
     u -= a
@@ -78,7 +78,7 @@ def face_normals(mesh: Mesh) -> np.ndarray:
 
 
 def surface_area(mesh: Mesh) -> float:
-    """Return the sum of the face areas; of a point cloud an estimate (:func:`vertex_areas`)."""
+    """Return the sum of the face areas, estimated for a point cloud (:func:`vertex_areas`)."""
     if len(mesh.faces) == 0 and len(mesh.vertices):
         return float(cloud_areas(mesh.vertices).sum())
     return float(face_areas(mesh).sum())
@@ -87,8 +87,7 @@ def surface_area(mesh: Mesh) -> float:
 def vertex_areas(mesh: Mesh) -> np.ndarray:
     """Return a third of the area of the faces around each vertex, (n,) float64: the barycentric lumped mass.
 
-    Of a point cloud it is an estimate of the area that each point stands for
-    (:func:`kfmaps.geometry.point_cloud.cloud_areas`).
+    For a point cloud areas are estimated (:func:`kfmaps.geometry.point_cloud.cloud_areas`).
     """
     if len(mesh.faces) == 0 and len(mesh.vertices):
         return cloud_areas(mesh.vertices)
@@ -112,9 +111,9 @@ def boundary_vertices(mesh: Mesh) -> np.ndarray:
 
 
 def boundary_loops(vertices: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the number of the loop that each boundary edge belongs to, and the area of discs as long around as these.
+    """Return the loop of each boundary edge, (b,), and the total area of flat discs with the lengths of the loops.
 
-    ``vertices (n, 3)``; ``edges (b, 2)``. Returns ``loop (b,)``; ``discs``, the area of all of them, which are flat.
+    ``vertices (n, 3)``; ``edges (b, 2)``.
     """
     lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     loop = component_labels(len(vertices), *edges.T)[1][edges[:, 0]]
@@ -155,7 +154,7 @@ def unit_area(mesh: Mesh) -> Mesh:
 
 
 def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
-    """Return ``mesh`` when it can be worked with, whatever read it.
+    """Return ``mesh`` when it is valid.
 
     Warns (:class:`KfmapsWarning`) about unreferenced vertices and faces without area, which do no harm.
 
@@ -165,7 +164,7 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
     name : str
         How messages call it; usually the file's name.
     cloud : bool
-        Whether a mesh without faces is welcome as a point cloud.
+        Whether a mesh without faces is accepted as a point cloud.
 
     Raises
     ------

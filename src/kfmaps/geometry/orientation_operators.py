@@ -18,11 +18,11 @@ from kfmaps.geometry.mesh import Mesh
 def orientation_operators(mesh: Mesh, basis: Basis, functions: Array) -> Array:
     """Return the matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
 
-    Entry (i, j) of operator s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It
-    depends on the positions of the vertices through the basis alone: gradients and area cancel.
+    Entry (i, j) of operator s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. Vertex
+    positions enter through the basis alone, since gradients and area cancel.
 
-    A functional map C that keeps orientation and carries wₛ to w'ₛ has ``C Ω_w = Ω_w' C``; one that reverses it has ``C
-    Ω_w = −Ω_w' C``.
+    A functional map C that preserves orientation and maps wₛ to w'ₛ has ``C Ω_w = Ω_w' C``; one that reverses it has
+    ``C Ω_w = −Ω_w' C``.
 
     Parameters
     ----------
@@ -46,10 +46,10 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array) -> Array:
 
     Notes
     -----
-    Ω is antisymmetric on a closed surface, by Stokes' theorem. With a boundary it is not: what is returned is its
-    antisymmetric part, ``½ ∫ φᵢ n · (∇w × ∇φⱼ) − φⱼ n · (∇w × ∇φᵢ)``.
+    Ω is antisymmetric on a closed surface, by Stokes' theorem. With a boundary the antisymmetric part is returned, ``½
+    ∫ φᵢ n · (∇w × ∇φⱼ) − φⱼ n · (∇w × ∇φᵢ)``.
     """
-    # Row by row, as sparse products want it: else they copy it each time.
+    # Row-major, so that sparse products need no copy.
     phi, w = np.ascontiguousarray(to_numpy(basis.functions)), to_numpy(functions)
     n = len(mesh.vertices)
     if len(mesh.faces) == 0:
@@ -70,17 +70,16 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array) -> Array:
 
 
 def _edges(mesh: Mesh) -> tuple[np.ndarray, csr_array]:
-    """Edges (e, 2), in ascending order, and a matrix (e, n) that takes w to their weights.
+    """Return the edges (e, 2), in ascending order, and the matrix (e, n) from w to their weights.
 
     On a face (p, q, r), ``½ ∫ h dw∧dg − g dw∧dh`` is the sum over its edges, here p → q, of ``(w_p + w_q − 2 w_r) / 12
-    · (h_p g_q − h_q g_p)``. An edge has the sum of its faces' weights, those of faces that run through it backwards
-    with the opposite sign.
+    · (h_p g_q − h_q g_p)``. The weight of an edge is the sum over its faces, with the opposite sign where q → p.
     """
     p, q, r = (np.concatenate([np.roll(mesh.faces, -i, axis=1)[:, c] for i in range(3)]) for c in range(3))
     sign = np.where(p < q, 1.0, -1.0) / 12
     n = len(mesh.vertices)
-    found, number = np.unique(np.minimum(p, q) * n + np.maximum(p, q), return_inverse=True)
-    edges = np.stack([found // n, found % n], axis=1)
+    keys, number = np.unique(np.minimum(p, q) * n + np.maximum(p, q), return_inverse=True)
+    edges = np.stack([keys // n, keys % n], axis=1)
     rows, columns = np.tile(number, 3), np.concatenate([p, q, r])
     values = np.concatenate([sign, sign, -2 * sign])
     return edges, csr_array((values, (rows, columns)), shape=(len(edges), n))
