@@ -495,7 +495,7 @@ MUTANTS = tuple(
         ("return missed * (", "return (", "test_score"),
         ("(agree * _is_inside(found, whole))", "agree", "test_parts_registration"),
         ("[closest, *pull.terms(x, stiffness)]", "[closest]", "test_parts_registration -k landmark"),
-        ("part.basis.mass) * found.overlap.part", "part.basis.mass)", "test_parts -k support_it"),
+        ("mass_p * overlap.part\n", "mass_p\n", "test_parts -k support_it"),
         ("scale * geodesic_distances(part.mesh", "geodesic_distances(part.mesh", "test_parts -k support_it"),
         (
             "rest.areas.sum() * trust / trust.sum()",
@@ -518,7 +518,7 @@ MUTANTS = tuple(
             "test_parts_registration",
         ),
         (
-            "(on_boundary[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1)",
+            "(on_boundary[faces[found.faces]] | ~has_weight).all(axis=1) & ~has_weight.all(axis=1)",
             "on_boundary[faces[found.faces]].any(axis=1)",
             "test_parts_registration",
         ),
@@ -552,7 +552,7 @@ MUTANTS = tuple(
         ("for column in columns[::-1]", "for column in columns[-1:]", "test_parts_beam_search"),
         ("+ single[:, None] + score[t]", "+ single[:, None]", "test_parts_beam_search"),
         ("distances[states[:, s]])\n", "distances[states[:, 0]])\n", "test_parts_beam_search"),
-        ("left = similarity - cost", "left = similarity", "test_parts_other_placements"),
+        ("else similarity - cost", "else similarity", "test_parts_other_placements"),
         ('return word if word == alone else "ambiguous"', "return word", "test_parts"),
         (
             "if all(differ(one, other) for other in kept):\n            kept",
@@ -568,7 +568,7 @@ MUTANTS = tuple(
         ),
         ("cost[: pair.part.n_landmarks] = 0.0", "cost[: pair.part.n_landmarks] = 1.0", "test_parts_other_placements"),
         (
-            "if float(np.median(off[each, one.placed.match])) > apart",
+            "if float(np.median(distances[each, one.placed.match])) > limit",
             "if one is not None",
             "test_parts_other_placements",
         ),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kfmaps.matching.partial.beam_search import _ANCHORS, _MIN_DISTANCE, _select_anchors, _select_different, beam_search
-from kfmaps.matching.partial.place_part import _placed_differently
+from kfmaps.matching.partial.place_part import _places_differ
 from kfmaps.matching.partial.relaxation_labeling import Assignment, distance_bounds
 from kfmaps.matching.partial.scale_search import TRIALS, Placement
 
@@ -96,9 +96,9 @@ def test_placements_of_mostly_the_same_points_are_registered_once():
         return Placement(1.0, TRIALS[0], Assignment(np.array(match), np.ones(6), 1.0), np.zeros((6, 9)))
 
     one, near, other = placed(0, 1, 2, 3, 4, 5), placed(0, 1, 2, 3, 7, 8), placed(0, 1, 2, 6, 7, 8)
-    assert not _placed_differently(one, near)
-    assert _placed_differently(one, other)
-    assert not _placed_differently(near, other)
+    assert not _places_differ(one, near)
+    assert _places_differ(one, other)
+    assert not _places_differ(near, other)
 
 
 def test_placings_that_hardly_differ_are_left_out():

@@ -12,9 +12,9 @@ from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_place
 from kfmaps.matching.partial.relaxation_labeling import Assignment, consistency, distance_bounds
 from kfmaps.matching.partial.samples import PartPair, PartSamples
 from kfmaps.matching.partial.scale_search import (
-    LEAST_MARKED_SCALE,
-    LEAST_SCALE,
-    MOST_SCALE,
+    MAX_SCALE,
+    MIN_MARKED_SCALE,
+    MIN_SCALE,
     TRIALS,
     Placement,
     _consistent_trust,
@@ -122,7 +122,7 @@ def test_landmarks_are_trusted_wherever_they_are():
 
 @pytest.mark.parametrize(
     ("longer", "marks", "end"),
-    [(0.01, 0, LEAST_SCALE), (0.01, 2, LEAST_MARKED_SCALE), (100.0, 0, MOST_SCALE), (1.0, 0, SCALE)],
+    [(0.01, 0, MIN_SCALE), (0.01, 2, MIN_MARKED_SCALE), (100.0, 0, MAX_SCALE), (1.0, 0, SCALE)],
 )
 def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, marks: int, end: float) -> None:
     _, part, whole = sheet(marks)

@@ -103,8 +103,9 @@ def test_all_placements_at_a_known_scale_are_registered_and_the_best_that_differ
         assert one.scale == SCALE
         return SimpleNamespace(score=next(scores), points=np.full((5, 3), next(at)), times=0)
 
-    monkeypatch.setattr(candidates, "place_by_beams", lambda *_: [None] * 3)
-    monkeypatch.setattr(candidates, "place_by_relaxation", lambda *_: None)
+    monkeypatch.setattr(
+        candidates, "rough_placements", lambda _pair, scale, _params: [SimpleNamespace(scale=scale)] * 4
+    )
     monkeypatch.setattr(candidates, "place_all", lambda _pair, one: one)
     monkeypatch.setattr(candidates, "make_candidate", registered)
     monkeypatch.setattr(candidates, "_place_again", lambda one, _pair: SimpleNamespace(**{**vars(one), "times": 1}))
@@ -211,7 +212,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
 
     monkeypatch.setattr(place_part, "try_scales", try_scales)
     monkeypatch.setattr(place_part, "refine_placement", lambda _pair, placement: placement)
-    monkeypatch.setattr(place_part, "settle", lambda _pair, placement: placement)
+    monkeypatch.setattr(place_part, "fit_scale", lambda _pair, placement: placement)
     monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)

@@ -1,9 +1,9 @@
 """Place a few samples of the part, far from each other, one after another by a beam search over all places.
 
-Relaxation keeps one opinion, the one that most descriptors hold; on smooth shapes that is a blend of several
-placements, each of them consistent in itself. Here many placements are kept side by side and compared as wholes: each
-further sample is tried at every place for every one of them, and the best that differ are kept. Few samples tell
-placements apart when they are spread far, and far from the boundary, where distances are the whole's own.
+Relaxation returns one placement. On smooth shapes that is often a blend of several ones, each consistent in itself. A
+beam search keeps many placements and compares them as a whole: each further sample is tried at every place in each of
+them, and the best distinct ones are kept. Few samples suffice when they are far from each other and from the boundary,
+where distances on the part are those of the whole.
 """
 
 from __future__ import annotations
@@ -13,16 +13,18 @@ import numpy as np
 from kfmaps.matching.partial.relaxation_labeling import Assignment, DistanceBounds, consistency
 
 _ANCHORS = 16  # samples that are placed
+_WIDTH = 100  # placements that are kept in each step
+_N_PLACES = 400  # first samples of the whole, which are the places
+_MOST = 12  # placements that are returned
 _MIN_DISTANCE = 0.12  # distance between two places of some anchor, in √area of the whole, from which placements differ
 
 
 def _select_anchors(bounds: DistanceBounds, boundary_distance: np.ndarray, count: int, first: int = 0) -> np.ndarray:
     """Return samples far from each other and from the boundary, (count,) int64.
 
-    They are farthest points by the smaller of the distance to those chosen and twice that to the boundary.
+    They are farthest points by the smaller of the distance to those chosen and twice the distance to the boundary.
 
-    ``boundary_distance (q,)``: in the unit of ``bounds``; ``first``: so many of the first samples, the landmarks, are
-    chosen first.
+    ``boundary_distance (q,)``: in the unit of ``bounds``; ``first``: number of landmarks, which are chosen first.
     """
     upper = np.where(np.isfinite(bounds.upper), bounds.upper, 0.0)
     inner = 2.0 * np.minimum(boundary_distance, upper.max(initial=0.0))
@@ -43,15 +45,14 @@ def beam_search(
     similarity: np.ndarray,
     n_landmarks: int = 0,
 ) -> list[Assignment]:
-    """Return at most 12 distinct placements of a few samples, best first; only these samples have trust.
+    """Return distinct placements of a few samples, best first; only these samples have trust.
 
     ``boundary_distance (q,)``: of the part's samples, in the unit of the whole; ``distances (m, m)``: between the
-    whole's samples, of which the first 400 are places; ``similarity (q, m)``: products of descriptors; rows of the
-    first ``n_landmarks`` samples have one entry above all others.
+    whole's samples; ``similarity (q, m)``: products of descriptors, in which each of the first ``n_landmarks`` rows has
+    one entry above all others.
     """
-    width = 100  # placements that are kept at each step
     anchors = _select_anchors(bounds, boundary_distance, _ANCHORS, n_landmarks)
-    m = min(400, similarity.shape[1])
+    m = min(_N_PLACES, similarity.shape[1])
     distances = distances[:m, :m]
     score = similarity[anchors, :m]
     score = (score - score.max(axis=1, keepdims=True)).astype(np.float32)
@@ -62,18 +63,18 @@ def beam_search(
         for s, earlier in enumerate(anchors[:t]):
             pair = earlier, anchors[t]
             fits += consistency(bounds.upper[pair], bounds.lower[pair], distances[states[:, s]])
-        # What a sample adds is of the same weight in both: its mean consistency with the others, and its descriptor.
+        # Mean consistency of the samples with each other, and their descriptors, with equal weights.
         total = (pairs[:, None] + fits) * np.float32(2 / t) + single[:, None] + score[t]
-        row, label = np.divmod(_largest(total, 20 * width), m)
+        row, label = np.divmod(_largest(total, 20 * _WIDTH), m)
         grown = np.concatenate([states[row], label[:, None]], axis=1)
-        kept = _select_different(grown, distances, width)
+        kept = _select_different(grown, distances, _WIDTH)
         row, label = row[kept], label[kept]
         states, pairs, single = grown[kept], pairs[row] + fits[row, label], single[row] + score[t, label]
     final = (2 * pairs / max(len(anchors) - 1, 1) + single) / len(anchors)
     order = np.argsort(-final, kind="stable")
     states, final = states[order], final[order]
     found = []
-    for i in _select_different(states, distances, 12, half=True):
+    for i in _select_different(states, distances, _MOST, half=True):
         match, trust = np.zeros(len(similarity), dtype=np.int64), np.zeros(len(similarity))
         match[anchors], trust[anchors] = states[i], 1.0
         found.append(Assignment(match, trust, float(final[i])))
@@ -106,7 +107,7 @@ def _select_different(states: np.ndarray, distances: np.ndarray, most: int, half
 
 
 def _largest(values: np.ndarray, count: int) -> np.ndarray:
-    """Where the largest of ``values`` are, largest first, the earliest of equal ones."""
+    """Return the flat indices of the largest ``values``, largest first, the earliest of equal ones first."""
     flat = values.ravel()
     some = np.arange(len(flat))
     if len(flat) > count:

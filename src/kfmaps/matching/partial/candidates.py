@@ -1,9 +1,9 @@
-"""Candidates: placements of a part that were registered, and the best against the best that puts the part elsewhere.
+"""Candidates: registered placements of a part, and alternatives that place the part elsewhere.
 
-A margin says nothing if no rival was a serious one. A half of a body that was cut lengthwise fits the other half nearly
-as well, turned front to back, and whichever of the two the search found first draws the others to it. So relaxation and
-the beam search run again, at the scale of the best placement and beside it, for the best that leave it: every sample
-pays for a place near the one that it has. Then the first few that differ are refined on equal terms.
+A margin means nothing if no alternative was seriously tried. A half of a body that was cut lengthwise fits the other
+half nearly as well, turned front to back, and whichever of the two a search has found first attracts other placements.
+So relaxation and beam searches run again at scales near that of the best placement, with a cost for places near those
+of its samples. Then the first few distinct candidates are refined by the same steps.
 """
 
 from __future__ import annotations
@@ -19,23 +19,18 @@ from kfmaps._threads import parallel
 from kfmaps.matching.partial.registration import PartRegistration, find_overlap, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair
-from kfmaps.matching.partial.scale_search import (
-    TRIALS,
-    Placement,
-    place_all,
-    place_by_beams,
-    place_by_relaxation,
-    refine_placement,
-    shot_similarity,
-)
-from kfmaps.matching.score import SCORE, PartEvidence, part_landmark_cost, part_score, select_distinct
+from kfmaps.matching.partial.scale_search import TRIALS, Placement, place_all, refine_placement, rough_placements
+from kfmaps.matching.score import SCORE, PartEvidence, by_score, part_landmark_cost, part_score, select_distinct
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
-"""Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
-_LEAST_TRUST, _LEAST_TRUST_OF_TWO = 0.01, 1e-4
-"""Trust that samples without any keep in a registration; of two parts many have no place on the other."""
-_MOST_AT_SCALE = 4  # candidates at a known scale
-_ROUNDS = (2, 5)  # how often candidates are refined, at least and at most
+"""Scales of alternatives, over that of the best placement: a wrong placement has a scale of its own."""
+_ALTERNATIVE_COST = 0.5
+"""Cost of a place near the one that a sample has, where the consistency of the sample is worth 2 at most."""
+_MIN_TRUST, _MIN_TRUST_OF_TWO = 0.01, 1e-4
+"""Least trust of samples in a registration; many samples of two parts have no place on the other."""
+_N_AT_SCALE = 4  # candidates at a known scale
+_N_ALTERNATIVES, _N_REFINED = 3, 3  # placements elsewhere that are registered, and distinct candidates that are refined
+_ROUNDS = (2, 5)  # how often a candidate is refined, at least and at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,13 +45,10 @@ class PartCandidate:
 
 
 def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
-    """Register the part quickly by its placed samples.
-
-    ``placement``: of all samples.
-    """
+    """Register the part quickly by a placement of all samples."""
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
-    trust = np.maximum(placement.placed.trust, _LEAST_TRUST_OF_TWO if pair.both_partial else _LEAST_TRUST)
+    trust = np.maximum(placement.placed.trust, _MIN_TRUST_OF_TWO if pair.both_partial else _MIN_TRUST)
     found = register_part(pair, placement.scale, points, normals, trust, quick=True)
     ends = pair.whole.mesh.vertices[pair.whole.landmarks]
     errors = np.linalg.norm(found.vertices[pair.part.landmarks] - ends, axis=1)
@@ -84,59 +76,47 @@ def _overlap_consistency(found: PartRegistration, pair: PartPair) -> float:
 
 
 def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list[PartCandidate]:
-    """Return the candidates, best first, after alternatives were sought and the best that differ were refined.
+    """Add alternatives to the best of the candidates, refine the best distinct ones, and return all, best first.
 
-    A placement that was found by chance is far from what it can be, and would lose against one that was not.
+    A placement that was found by chance is far from its best form, and would lose against one that was refined.
     """
-    best = max(found, key=lambda one: one.score)
-    elsewhere = _alternative_placements(pair, best.registration.scale, best.points)
-    likely = sorted(elsewhere, key=lambda one: -one.score)[:3]
-    more = [make_candidate(refine_placement(pair, one), pair) for one in likely]
-    order = sorted([*found, *more], key=lambda one: -one.score)
-    chosen = select_distinct(order, _differ, 3)
+    best = by_score(found)[0]
+    likely = by_score(_alternative_placements(pair, best.registration.scale, best.points))[:_N_ALTERNATIVES]
+    order = by_score([*found, *(make_candidate(refine_placement(pair, one), pair) for one in likely)])
+    chosen = select_distinct(order, _differ, _N_REFINED)
     rest = [one for one in order if all(_differ(one, other) for other in chosen)]
     least = chosen[0].score - SCORE.part.hopeless_margin
-    last = [_refine_candidate(one, pair) if one.score > least else one for one in chosen]
-    return sorted([*last, *rest], key=lambda one: -one.score)
+    refined = [_refine_candidate(one, pair) if one.score > least else one for one in chosen]
+    return by_score([*refined, *rest])
 
 
 def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) -> list[Placement]:
-    """Return placements of the samples elsewhere than at ``points (q, 3)``, by relaxation and beam searches.
+    """Return placements of all samples elsewhere than at ``points (q, 3)``, by relaxation and beam searches.
 
     ``scale``: √area of the part over that of the whole. Samples that are landmarks stay.
     """
-    off = np.linalg.norm(points[:, None] - pair.whole.mesh.vertices[pair.whole.samples][None], axis=2)
-    apart = SCORE.part.distinct_distance
-    # A place near the one that a sample has costs half a point, where its consistency is worth 2 at most.
-    cost = 0.5 * (off < apart).astype(np.float32)
+    distances = np.linalg.norm(points[:, None] - pair.whole.mesh.vertices[pair.whole.samples][None], axis=2)
+    limit, each = SCORE.part.distinct_distance, np.arange(len(points))
+    cost = _ALTERNATIVE_COST * (distances < limit).astype(np.float32)
     cost[: pair.part.n_landmarks] = 0.0
-    each = np.arange(len(points))
 
     def place(scale: float) -> list[Placement]:
-        similarity = shot_similarity(pair, scale, TRIALS[0])
-        left = similarity - cost
-        begun = [*place_by_beams(pair, scale, left), place_by_relaxation(pair, scale, left)]
-        placed = [place_all(pair, Placement(scale, TRIALS[0], one, similarity)) for one in begun]
-        return [one for one in placed if float(np.median(off[each, one.placed.match])) > apart]
+        placements = [place_all(pair, one) for one in rough_placements(pair, scale, cost=cost)]
+        return [one for one in placements if float(np.median(distances[each, one.placed.match])) > limit]
 
     scales = [scale * ratio for ratio in (_SCALE_RATIOS[:1] if pair.fixed_scale else _SCALE_RATIOS)]
     return [one for some in parallel(place, scales) for one in some]
 
 
 def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
-    """Return candidates at the ``scale`` of the files: the best few that differ.
+    """Return the best distinct candidates at the ``scale`` of the files.
 
-    Samples alone do not tell where a small part belongs, or which of two parts lies where on the other. So all
-    placements of beam searches and of relaxation are registered, which takes 0.05 s each, before any is dropped.
+    Samples alone do not tell where a small part belongs, or which parts of two shapes correspond. So all placements by
+    beam searches and by relaxation are registered, which takes 0.05 s each, before any is dropped.
     """
-    found = []
-    for params in TRIALS[:2]:
-        similarity = shot_similarity(pair, scale, params)
-        begun = [*place_by_beams(pair, scale, similarity), place_by_relaxation(pair, scale, similarity, params)]
-        placed = [place_all(pair, Placement(scale, params, one, similarity)) for one in begun]
-        found += parallel(lambda one: make_candidate(one, pair), placed)
-    order = sorted(found, key=lambda one: -one.score)
-    return [_place_again(one, pair) for one in select_distinct(order, _differ, _MOST_AT_SCALE)]
+    rough = [one for params in TRIALS[:2] for one in rough_placements(pair, scale, params)]
+    found = parallel(lambda one: make_candidate(one, pair), [place_all(pair, one) for one in rough])
+    return [_place_again(one, pair) for one in select_distinct(by_score(found), _differ, _N_AT_SCALE)]
 
 
 def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:
@@ -164,14 +144,12 @@ def _differ(one: PartCandidate, other: PartCandidate) -> bool:
 
 
 def margin(found: Sequence[PartCandidate], n_landmarks: int = 0) -> float:
-    """Return by how much the best of ``found``, which is first, precedes the best that differs, up to a maximum.
+    """Return the margin of the first candidate, which is the best, over the best that differs, up to a maximum.
 
-    The less of the whole a part covers, the more places it fits by chance: below :attr:`PartScoring.full_area` a margin
-    counts in proportion to the area, unless landmarks fix the place. Without any other candidate that differs it is the
-    maximum before that.
+    The less of the whole a part covers, the more places it fits by chance. So below :attr:`PartScoring.full_area` a
+    margin counts in proportion to the area, unless landmarks fix the place.
     """
-    others = [one.score for one in found if _differ(one, found[0])]
-    share = 1.0 if n_landmarks else min(found[0].registration.scale ** 2 / SCORE.part.full_area, 1.0)
-    if not others:
-        return SCORE.part.calibration.max_margin * share
-    return min((found[0].score - max(others)) * share, SCORE.part.calibration.max_margin)
+    most, best = SCORE.part.calibration.max_margin, found[0]
+    share = 1.0 if n_landmarks else min(best.registration.scale**2 / SCORE.part.full_area, 1.0)
+    others = [one.score for one in found if _differ(one, best)]
+    return min((best.score - max(others)) * share, most) if others else most * share

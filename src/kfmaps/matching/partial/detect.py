@@ -1,4 +1,4 @@
-"""Whether one of two shapes looks like a part of the other, told by their boundaries alone."""
+"""Detect by their boundaries whether one of two shapes may be a part of the other."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from kfmaps.matching.score import SCORE
 
 @dataclass(frozen=True)
 class PartDetection:
-    """What the boundaries of two shapes tell; made by :func:`detect_part`."""
+    """Which of two shapes may be a part; made by :func:`detect_part`."""
 
     which: Literal["none", "source", "target", "both"]
     reason: str  # in words
-    opening: float = 0.0  # of the part: the least that is missing, over its own area
+    opening: float = 0.0  # of the part: the least area that is missing, over its own area
 
 
 def _boundary_opening(mesh: Mesh) -> float:
-    """Area of flat discs as long around as the boundaries of ``mesh``, over its own area: the least that is missing.
+    """Return the area of flat discs with the perimeters of the boundaries, over the area of the mesh.
 
-    0 of a closed surface and of a point cloud.
+    It is the least area that is missing; 0 for a closed surface and for a point cloud.
     """
     mesh = clean_mesh(mesh).mesh
     if len(mesh.faces) == 0:

@@ -1,4 +1,4 @@
-"""A placed part as the answer of a match: points, functions and probabilities on both shapes."""
+"""Match a part and a whole: the placed part as points, functional map and overlap of both shapes."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
+_HOLES_FROM = 0.9
+"""Share of the other's area from which a part is called a shape with holes."""
 
 
 def match_partial(
@@ -34,8 +36,9 @@ def match_partial(
 ) -> tuple[Match, bool]:
     """Match two shapes of which one is a part; return the match, and whether the common part is most of both.
 
-    ``which``: the part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
-    target where their units cannot be compared. ``why``: for what reason it is taken for a part; ``least_scale`` and
+    ``which``: the part. With "both" each may have what the other lacks; then the one with the smaller area is
+    registered, or the target where the units cannot be compared. ``why``: the reason to take it for a part;
+    ``least_scale`` and
     ``clear_only``: see :func:`kfmaps.matching.partial.place_part.place_part`.
     """
     source, target = task.shapes("preserving")
@@ -43,15 +46,16 @@ def match_partial(
         if len(shape.mesh.faces) == 0:
             raise refuse(shape.name, "a surface with triangles", "a point cloud", "match it as a whole: partial 'none'")
     ratio = None if source.extent is None or target.extent is None else target.extent / source.extent
-    forward = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
-    part, whole = (target, source) if forward else (source, target)
+    is_target = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
+    part, whole = (target, source) if is_target else (source, target)
     pairs = task.pair.landmarks(task.landmarks)
+    marks = pairs[:, ::-1] if is_target else pairs
     place_with = partial(
         place_part,
         part.mesh,
         whole.mesh,
         task.config,
-        ratio=ratio if forward or ratio is None else 1 / ratio,
+        ratio=ratio if is_target or ratio is None else 1 / ratio,
         both_partial=which == "both",
         rng=task.seed,
         progress=lambda done: task.clock.report("parts", done),
@@ -59,67 +63,66 @@ def match_partial(
         clear_only=clear_only,
     )
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
-    marked = pairs[:, ::-1] if forward else pairs
-    found, errors = _place_by_landmarks(place_with, marked, whole.mesh, numbers, which == "both")
-    place = found.overlap.on_whole if forward else found.overlap.on_part
-    overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
-    points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
-    scale = found.registration.scale
-    areas = to_numpy(part.basis.mass) * found.overlap.part
-    around = scale * geodesic_distances(part.mesh, marked[:, 0]) if len(marked) else np.zeros((0, len(areas)))
-    support = landmark_support(errors, around, areas)
-    at_scale = scale_mesh(part.mesh, scale)
-    here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
-    trust = local_confidence(here, there, points, sized=True)
-    masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
-    common = float(masses[0] @ found.overlap.part), float(masses[1] @ found.overlap.whole)
-    rejected = np.flatnonzero(errors > SCORE.part.max_landmark_error)
-    # The source's vertices on the target at unit area, where the source is the part.
-    registered = None if forward else task.pair.bent(found.registration.vertices)
-    reason = describe_part(which, scale, overlaps, why)
+    found, errors = _place_by_landmarks(place_with, marks, whole.mesh, numbers, which == "both")
+    overlap, scale = found.overlap, found.registration.scale
+    scaled = scale_mesh(part.mesh, scale)
+    if is_target:
+        places, overlaps, meshes = overlap.on_whole, (overlap.whole, overlap.part), (whole.mesh, scaled)
+    else:
+        places, overlaps, meshes = overlap.on_part, (overlap.part, overlap.whole), (scaled, whole.mesh)
+    points = np.where(overlaps[1] > COMMON, nearest_vertices(places, source.mesh), -1)
+    mass_p, mass_w = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
+    areas = mass_p * overlap.part
+    distances = scale * geodesic_distances(part.mesh, marks[:, 0]) if len(marks) else np.zeros((0, len(areas)))
+    judged = found.scores[0], found.margin, None, landmark_support(errors, distances, areas), numbers
     match = task.result(
         points,
-        _slanted_functional_map(points, source, target, scale if forward else 1 / scale),
-        trust,
-        # Where a vertex has no counterpart that is the nearest point that could be one.
-        precise_map=task.pair.place(place),
-        verdict=verdict(found.scores[0], found.margin, support=support, numbers=numbers),
-        confidence=probability(found.scores[0], found.margin, support=support, numbers=numbers),
-        score=MatchScore(found.scores, None, None, "a part bent onto the other", rejected),
-        registration=MatchRegistration(registered),
-        partial=MatchPart(which, reason, scale, True, *task.pair.overlap(*overlaps)),
+        _slanted_functional_map(points, source, target, scale if is_target else 1 / scale),
+        local_confidence(*meshes, points, sized=True),
+        # Where a vertex has no counterpart this is the nearest point that could be one.
+        precise_map=task.pair.place(places),
+        verdict=verdict(*judged),
+        confidence=probability(*judged),
+        score=MatchScore(
+            found.scores,
+            initialization="a part bent onto the other",
+            rejected_landmarks=np.flatnonzero(errors > SCORE.part.max_landmark_error),
+        ),
+        # The source's vertices on the target at unit area, where the source is the part.
+        registration=MatchRegistration(None if is_target else task.pair.bent(found.registration.vertices)),
+        partial=MatchPart(
+            which, describe_part(which, scale, overlaps, why), scale, True, *task.pair.overlap(*overlaps)
+        ),
     )
-    return match, min(common) > SCORE.part.whole_overlap
+    return match, bool(min(mass_p @ overlap.part, mass_w @ overlap.whole) > SCORE.part.whole_overlap)
 
 
 def _place_by_landmarks(
     place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration, two: bool
 ) -> tuple[PlacedPart, np.ndarray]:
-    """Return a placement, and its errors, (l,), at the landmarks ``pairs (l, 2)`` when these do not count.
+    """Return a placement, and its errors, (l,), at the landmarks ``pairs (l, 2)`` when these take no part in it.
 
-    A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
-    where the part fits nowhere with them, by the ``numbers`` of its verdict. The one with the better score is kept,
-    where each pays for every landmark that it contradicts, as a part on a whole or as one of ``two`` parts: a slightly
-    better score is no reason to drop right ones.
+    A placement that contradicts some landmarks is compared with one by the others. Where it contradicts most, or where
+    the part fits nowhere with them by the ``numbers`` of its verdict, it is compared with one without landmarks. The
+    better score decides, less a cost for each contradicted landmark, which is higher for ``two`` parts: so right
+    landmarks are not dropped for a slightly better score.
     """
 
     def errors(found: PlacedPart) -> np.ndarray:
         return np.linalg.norm(found.unguided[pairs[:, 0]] - whole.vertices[pairs[:, 1]], axis=1)
 
-    def paid(found: PlacedPart) -> float:
-        return found.scores[0] - part_landmark_cost(errors(found), two)
-
     found = place_with(landmarks=pairs)
-    wrong = errors(found) > SCORE.part.max_landmark_error
-    nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
-    if len(pairs) and (nowhere or wrong.any()):
-        others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
-        found = max(place_with(landmarks=others, progress=None), found, key=paid)
+    is_wrong = errors(found) > SCORE.part.max_landmark_error
+    fits_nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
+    if len(pairs) and (fits_nowhere or is_wrong.any()):
+        others = pairs[:0] if fits_nowhere or is_wrong.mean() > 0.5 else pairs[~is_wrong]
+        both = place_with(landmarks=others, progress=None), found
+        found = max(both, key=lambda found: found.scores[0] - part_landmark_cost(errors(found), two))
     return found, errors(found)
 
 
 def _slanted_functional_map(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> np.ndarray:
-    """The functional map ``(k_t, k_s)`` of ``points (n_t,)``, −1 where there is none, of functions of like frequency.
+    """Return the functional map ``(k_t, k_s)`` of ``points (n_t,)``, −1 where there is none, up to one frequency.
 
     ``ratio``: √area of the target over that of the source. The part's eigenvalues below the whole's last are about as
     many as its share of the area (Weyl), which slants the map's diagonal (Rodolà et al. 2017).
@@ -128,15 +131,15 @@ def _slanted_functional_map(points: np.ndarray, source: Shape, target: Shape, ra
     values_t = to_numpy(target.basis.eigenvalues) / ratio**2
     last = min(values_s[-1], values_t[-1])
     k_s, k_t = (max(int((values <= last).sum()), 1) for values in (values_s, values_t))
-    known = points >= 0
-    pulled = to_numpy(take(source.basis.functions[:, :k_s], np.maximum(points, 0))) * known[:, None]
-    # Functions of unit norm on shapes of unit area, each in its own unit: constants go to constants on the part.
+    is_known = points >= 0
+    pulled = to_numpy(take(source.basis.functions[:, :k_s], np.maximum(points, 0))) * is_known[:, None]
+    # Functions have unit norm on shapes of unit area, so constants are mapped to constants on the part.
     weighted = to_numpy(target.basis.functions)[:, :k_t] * to_numpy(target.basis.mass)[:, None]
     return weighted.T @ pulled
 
 
 def describe_part(which: str, scale: float, overlaps: tuple[np.ndarray, np.ndarray], reason: str) -> str:
-    """Return one line about what was taken for a part, with the ``reason``.
+    """Return one line about the part, with the ``reason`` to take it for one.
 
     ``scale``: √area of the part over that of the whole; ``overlaps (n_s,)``, ``(n_t,)``: what both have in common.
     """
@@ -144,7 +147,6 @@ def describe_part(which: str, scale: float, overlaps: tuple[np.ndarray, np.ndarr
         shares = overlaps[0].mean(), overlaps[1].mean()
         return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {reason}"
     share = scale**2
-    holes = 0.9  # share of the other's area from which a part is called a shape with holes
-    if share >= holes:
+    if share >= _HOLES_FROM:
         return f"the {which} has holes ({max(1 - share, 0):.0%} is missing)"
     return f"the {which} is a part, {share:.0%} of the other's area; {reason}"

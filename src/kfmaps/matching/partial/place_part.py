@@ -1,4 +1,12 @@
-"""The best of several ways to place a part on a whole, and how sure that is."""
+"""Place a part on a whole: the best of several placements, and its margin over the others.
+
+1. Both shapes are sampled, large ones on coarse copies (:mod:`~kfmaps.matching.partial.samples`).
+2. Samples are placed at many scales, and the likeliest placements are refined
+   (:mod:`~kfmaps.matching.partial.scale_search`).
+3. The part is registered quickly from each placement, and alternatives that place it elsewhere are compared
+   (:mod:`~kfmaps.matching.partial.candidates`).
+4. The best candidate is registered fully, on all vertices in the end (:mod:`~kfmaps.matching.partial.registration`).
+"""
 
 from __future__ import annotations
 
@@ -33,18 +41,21 @@ from kfmaps.matching.partial.scale_search import (
     SCALES,
     TRIALS,
     Placement,
+    fit_scale,
     refine_placement,
+    refit_scale,
     search_scale,
-    settle,
-    settle_again,
     try_scales,
 )
-from kfmaps.matching.score import SCORE, select_distinct
+from kfmaps.matching.score import SCORE, by_score, select_distinct
 
-_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of that
-_MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
-_MAX_RATIO = 2.0  # of the sizes of two parts in one unit; an inch is 2.54 cm
-_SMALL = (0.25, 0.5)  # scales by the files between which a part is a small one, below a quarter of the area
+_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of the copy
+_MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
+_MAX_SIZE_RATIO = 2.0  # of two parts in one unit; an inch is 2.54 cm
+_SMALL_SCALES = (0.25, 0.5)  # scales by the files between which a part is a small one, below a quarter of the area
+_N_BEAMS = 4  # placements by beam searches that are refined
+_MIN_AGREEMENT = 2 / 3  # share of samples at the same place from which two placements would be registered alike
+_TRUSTED_DISTANCE = 0.02  # from the whole, in its √area, at which a registered sample is trusted by half
 
 
 class NotClear(Exception):
@@ -59,8 +70,8 @@ class PlacedPart:
     overlap: Overlap
     # Of all candidates, the best first, as if the landmarks that it contradicts had not been given.
     scores: tuple[float, ...]
-    margin: float  # by how much the best of those that place the part elsewhere scores less
-    unguided: np.ndarray  # (n_p, 3): the part's vertices where landmarks have no say in where they end
+    margin: float  # over the best candidate that places the part elsewhere
+    unguided: np.ndarray  # (n_p, 3): the part's vertices after a registration without landmarks
 
 
 def place_part(
@@ -78,11 +89,12 @@ def place_part(
 ) -> PlacedPart:
     """Place a part on a whole.
 
-    ``part`` and ``whole``: at unit area; ``ratio``: √area of the part over that of the whole as they were given: one of
-    the scales that are tried, and the only one where units are the same (:func:`_same_units`); ``landmarks (l, 2)``:
-    vertices of the part and of the whole; ``both_partial``: whether the whole, too, may lack something; ``progress``:
-    told about how much is done, from 0 to 1; ``least_scale``: where no likely placement is as large, only the first of
-    them is registered; ``clear_only``: raise :exc:`NotClear` where the search would not end early.
+    ``part`` and ``whole``: at unit area. ``ratio``: √area of the part over that of the whole in their files; it is one
+    of the scales that are tried, and the only one where units are the same (:func:`_same_units`).
+    ``landmarks (l, 2)``: vertices of the part and of the whole. ``both_partial``: whether the whole may lack something
+    too. ``progress``: is called with the share of the work that is done. ``least_scale``: where all likely placements
+    are smaller, only the first of them is registered. ``clear_only``: raise :exc:`NotClear` where the search would
+    not end early.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
@@ -96,7 +108,7 @@ def place_part(
         part_samples(copy.mesh, count, copy.owner[marks], rng)
         for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
     ]
-    small = None if both_partial or ratio is None or not _SMALL[0] < ratio < _SMALL[1] else ratio
+    small = None if both_partial or ratio is None or not _SMALL_SCALES[0] < ratio < _SMALL_SCALES[1] else ratio
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
     report(0.15)
     found = _search_placements(pair, ratio, settings.candidates, least_scale, clear_only, report)
@@ -117,7 +129,7 @@ def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
     Nothing bounds the scale of two parts, and the score prefers a wrong one: the pairs of
     `benchmarks/part_to_part.py` have errors of 5 at the scale of their files, and of 20 at any (research/parts.md).
     """
-    alike = both_partial and ratio is not None and 1 / _MAX_RATIO <= ratio <= _MAX_RATIO
+    alike = both_partial and ratio is not None and 1 / _MAX_SIZE_RATIO <= ratio <= _MAX_SIZE_RATIO
     return scale == "fixed" or (scale == "auto" and alike)
 
 
@@ -169,7 +181,7 @@ def _clear_candidate(pair: PartPair, placement: Placement) -> PartCandidate | No
     found, numbers = make_candidate(placement, pair), SCORE.part
     if found.score < numbers.early_exit_score or found.registration.scale**2 < numbers.full_area:
         return None
-    other = settle(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
+    other = fit_scale(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
     apart = pair.whole.distances[placement.placed.match, other.placed.match]
     return found if float((apart < numbers.distinct_distance).mean()) >= numbers.early_exit_agreement else None
 
@@ -185,7 +197,7 @@ def candidate_placements(
     rough = [*first]
     for params in TRIALS[1:]:
         rough += try_scales(pair, [one.scale for one in first[:2]], params)
-    return rough, sorted(search_scale(pair, scales), key=lambda one: -one.score)[:4]
+    return rough, by_score(search_scale(pair, scales))[:_N_BEAMS]
 
 
 def _scales_differ(one: Placement, other: Placement) -> bool:
@@ -194,25 +206,23 @@ def _scales_differ(one: Placement, other: Placement) -> bool:
 
 
 def _likely_placements(pair: PartPair, supported: list[Placement], scales: list[float], count: int) -> list[Placement]:
-    """The placements of all samples that are worth a registration, by relaxation and by beam searches."""
+    """Return the refined placements that are worth a registration, by relaxation and by beam searches."""
     rough, beams = candidate_placements(pair, supported, scales, count)
-    settled = parallel(lambda one: settle(pair, one), [*rough, *beams])
-    # Few samples of a beam search were placed by their descriptors: its score is too low before registration.
+    fitted = parallel(lambda one: fit_scale(pair, one), [*rough, *beams])
     likely: list[Placement] = []
-    for some, most in ((settled[: len(rough)], count + 1), (settled[len(rough) :], 2)):
-        best = sorted(some, key=lambda one: -one.score)[:most]
-        again = parallel(lambda one: settle_again(pair, one), best)
-        likely += sorted(again, key=lambda one: -one.score)
-    return select_distinct(likely, _placed_differently, count + 3)
+    # Few samples of a beam search are placed by their descriptors, so its scores are too low before registration.
+    for some, most in ((fitted[: len(rough)], count + 1), (fitted[len(rough) :], 2)):
+        likely += by_score(parallel(lambda one: refit_scale(pair, one), by_score(some)[:most]))
+    return select_distinct(likely, _places_differ, count + 3)
 
 
-def _placed_differently(one: Placement, other: Placement) -> bool:
-    """Return whether two placements agree on less than two thirds of the samples: they register alike otherwise."""
-    return float((one.placed.match == other.placed.match).mean()) < 2 / 3
+def _places_differ(one: Placement, other: Placement) -> bool:
+    """Return whether two placements differ at so many samples that they would be registered differently."""
+    return float((one.placed.match == other.placed.match).mean()) < _MIN_AGREEMENT
 
 
 def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
-    """Return what a mesh is placed by: a coarse copy of a large one, with all landmarks."""
+    """Return the copy of a mesh that is placed: a coarse one of a large mesh, with all landmarks."""
     count = _PROXY_VERTICES if len(mesh.vertices) > _PROXY_FROM else len(mesh.vertices)
     return coarse_proxy(mesh, spread_vertices(mesh, count, landmarks))
 
@@ -220,14 +230,11 @@ def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
 def _register_fully(
     found: PartRegistration, pair: PartPair, progress: Callable[[float], None], guided: bool = True
 ) -> PartRegistration:
-    """Register the part once more, from where it lies, at the scale of its edges.
-
-    ``guided``: whether landmarks pull it.
-    """
+    """Register the part in full from where it lies, at the scale of its edges; ``guided``: with landmarks."""
     mesh, vertex_normals, samples = pair.whole.mesh, pair.whole.surface.normals, pair.part.samples
     places = closest_points(found.vertices[samples], mesh.vertices, mesh.faces)
     points, normals = places.points, vertex_normals[mesh.faces[places.faces]].mean(axis=1)
-    trust = found.inside[samples] * np.exp2(-((places.distances / 0.02) ** 2)) + 1e-3
+    trust = found.inside[samples] * np.exp2(-((places.distances / _TRUSTED_DISTANCE) ** 2)) + 1e-3
     ends = pair.whole.landmarks if guided else pair.whole.landmarks[:0]
     points[: len(ends)], normals[: len(ends)] = mesh.vertices[ends], vertex_normals[ends]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)

@@ -1,12 +1,13 @@
-"""Which sample of the whole belongs to which sample of the part: SHOT proposes, distances decide.
+"""Find the sample of the whole for each sample of the part: candidates by SHOT, chosen by distances.
 
-A part keeps distances only where no cut comes between. A shortest path that meets the boundary is at least as long as
-both its ends are from the boundary together; so a distance shorter than that is the whole's own, and one that is longer
-says that the whole's distance lies between that sum and itself. Both are exact for isometric shapes.
+Distances on a part are those of the whole only where no shortest path crosses the cut. A path that meets the boundary
+is at least as long as the sum of the distances of its ends from the boundary. So a distance on the part below that sum
+is that of the whole; for a longer one the distance on the whole lies between the sum and the distance on the part. Both
+bounds are exact for isometric shapes.
 
-First each sample has a few candidates and their support for each other is balanced until one of them stands out
-(relaxation labelling, Hummel and Zucker 1983, on the pairwise consistency of Leordeanu and Hebert 2005). Then every
-sample chooses anew among all of the whole's, by its distances to the nearest samples whose place is trusted.
+First each of a few samples has a few candidates, whose support for each other is iterated until one of them dominates
+(relaxation labelling, Hummel and Zucker 1983, with the pairwise consistency of Leordeanu and Hebert 2005). Then each
+sample is assigned anew among all samples of the whole, by its distances to the nearest trusted samples.
 """
 
 from __future__ import annotations
@@ -18,17 +19,17 @@ import numpy as np
 from kfmaps._arrays import blocks
 
 _SLACK = (0.02, 0.1)
-"""Change of a distance that speaks against a pair altogether: at no distance, in √area, and per distance."""
+"""Change of a distance from which a pair is inconsistent: for a distance of 0, in √area, and per distance."""
 _LANDMARK_TRUST = 3.0  # trust in a landmark, where that of a sample is at most 1
 
 
 @dataclass(frozen=True)
 class RelaxationParams:
-    """How a relaxation begins."""
+    """Parameters of a relaxation."""
 
     radii: tuple[float, ...] = (0.09, 0.14)  # of SHOT, in √area of the whole
-    first: int = 150  # samples that are placed at first
-    candidates: int = 12  # places that each may have: few samples with many places find what descriptors alone do not
+    first: int = 150  # samples that are placed
+    candidates: int = 12  # places of each: few samples with many places succeed where descriptors are misleading
     reach: float = 0.6  # distance up to which pairs count, in √area of the whole
 
 
@@ -36,8 +37,8 @@ class RelaxationParams:
 class DistanceBounds:
     """Bounds ``(q, q)`` of the distances that the part's samples have on the whole, in its unit.
 
-    ``upper`` is the distance on the part, ``lower`` that of a path that may leave it; where they are infinite, as
-    between components, they say nothing.
+    ``upper`` is the distance on the part, ``lower`` that of a path that may leave it. Infinite bounds, as between
+    components, do not count.
     """
 
     upper: np.ndarray
@@ -49,7 +50,7 @@ class Assignment:
     """A sample of the whole for each of the part's."""
 
     match: np.ndarray  # (q,): number of the whole's sample
-    trust: np.ndarray  # (q,): 0 for samples whose place is not to be relied on, up to 1, and more for landmarks
+    trust: np.ndarray  # (q,): weight of each, from 0 to 1, and more for landmarks
     support: float  # mean consistency of the pairs within reach, 0 to 1
 
 
@@ -63,12 +64,12 @@ def distance_bounds(distances: np.ndarray, boundary_distance: np.ndarray, scale:
 def consistency(
     upper: np.ndarray, lower: np.ndarray, distances: np.ndarray, slack: tuple[float, float] = _SLACK
 ) -> np.ndarray:
-    """Return how well ``distances`` on the whole fit the bounds, 0 to 1; the arrays are broadcast.
+    """Return the consistency of ``distances`` on the whole with the bounds, 0 to 1; the arrays are broadcast.
 
-    A change that a way around the boundary explains counts half.
+    A change that is explained by a path around the boundary counts half.
     """
     with np.errstate(invalid="ignore"):
-        # One array after the other, since this is where most of the time goes.
+        # In place, since most of the time is spent here.
         off = upper - distances
         if np.any(upper > lower):
             half, less = 0.5 * off, off - 0.5 * (upper - lower)
@@ -76,8 +77,7 @@ def consistency(
         off /= slack[0] + slack[1] * upper
         off *= off
         fits = np.subtract(1, off, out=off)
-        fits.clip(0, np.inf, out=fits)  # which takes half of the time of np.maximum with a number
-    # Infinite distances say nothing.
+        fits.clip(0, np.inf, out=fits)  # takes half of the time of np.maximum with a number
     return fits if np.isfinite(upper).all() else np.where(np.isfinite(upper), fits, 0)
 
 
@@ -90,17 +90,17 @@ def relax(
 ) -> Assignment:
     """Place the first few samples by relaxation labelling.
 
-    ``distances (m, m)``: between the whole's samples; ``similarity (q, m)``: products of descriptors; rows of the first
-    ``n_landmarks`` samples have one entry above all others.
+    ``distances (m, m)``: between the whole's samples; ``similarity (q, m)``: products of descriptors, in which each of
+    the first ``n_landmarks`` rows has one entry above all others.
     """
     n = min(max(params.first, n_landmarks), len(similarity))
     k = min(params.candidates, similarity.shape[1])
     upper, lower, similarity = bounds.upper[:n, :n], bounds.lower[:n, :n], similarity[:n]
     candidates = np.argsort(-similarity, axis=1, kind="stable")[:, :k]
-    speaks = np.take_along_axis(similarity, candidates, 1)
-    speaks = speaks - speaks.max(axis=1, keepdims=True)
-    prior = np.exp(speaks / 0.1)
-    share = np.exp(speaks / 0.05)
+    relative = np.take_along_axis(similarity, candidates, 1)
+    relative = relative - relative.max(axis=1, keepdims=True)
+    prior = np.exp(relative / 0.1)
+    share = np.exp(relative / 0.05)
     share /= share.sum(axis=1, keepdims=True)
     own, label = np.repeat(np.arange(n), k), candidates.ravel()
     near = (upper <= params.reach) & ~np.eye(n, dtype=bool)
@@ -109,19 +109,19 @@ def relax(
         rows = slice(i * k, (i + 1) * k)
         between = distances[candidates[i]].take(label, axis=1)
         fits[rows] = consistency(upper[i, own], lower[i, own], between) * near[i, own]
-    backed = share
+    supports = share
     for _ in range(12):
-        backed = (fits @ share.ravel().astype(fits.dtype)).reshape(n, k)
-        share = prior * backed**2
+        supports = (fits @ share.ravel().astype(fits.dtype)).reshape(n, k)
+        share = prior * supports**2
         share /= share.sum(axis=1, keepdims=True) + 1e-12
-        most = backed.max(axis=1)
+        most = supports.max(axis=1)
         share *= np.minimum(most / max(float(np.median(most)), 1e-12), 1.5)[:, None]
-    best = (prior * backed**2).argmax(axis=1)
+    best = (prior * supports**2).argmax(axis=1)
     each = np.arange(n)
-    support = backed[each, best].astype(np.float64)
-    middle = max(float(np.median(support)), 1e-12)
+    support = supports[each, best].astype(np.float64)
+    median = max(float(np.median(support)), 1e-12)
     trust, match = np.zeros(len(bounds.upper)), np.zeros(len(bounds.upper), dtype=np.int64)
-    trust[:n] = np.where(support < 0.5 * middle, 0.0, np.minimum(support / middle, 1.0))
+    trust[:n] = np.where(support < 0.5 * median, 0.0, np.minimum(support / median, 1.0))
     trust[:n_landmarks] = _LANDMARK_TRUST
     match[:n] = candidates[each, best]
     return Assignment(match, trust, float((support / np.maximum(near.sum(axis=1), 1)).mean()))
@@ -144,29 +144,32 @@ def reassign(
     trusted = np.flatnonzero(placed.trust > 0)
     near = trusted[np.argsort(bounds.upper[:, trusted], axis=1, kind="stable")[:, :41]]
     upper, lower = (np.take_along_axis(side, near, axis=1) for side in (bounds.upper, bounds.lower))
-    weight = placed.trust[near] / (0.1 + upper)  # none where the distance is infinite
+    weight = placed.trust[near] / (0.1 + upper)  # 0 where the distance is infinite
     weight[near == np.arange(q)[:, None]] = 0.0
     weight = (weight / np.maximum(weight.sum(axis=1, keepdims=True), 1e-300)).astype(distances.dtype)
-    for some in blocks(q, 4):  # few samples at once, so that their arrays fit the cache
-        there = distances[placed.match[near[some]]]
-        fits = consistency(upper[some, :, None], lower[some, :, None], there, (0.03, 0.08))
-        share = (weight[some, None] @ fits)[:, 0]
-        free = slice(max(some.start, n_landmarks), some.stop)
-        better = share + similarity[some] - similarity[some].max(axis=1, keepdims=True)
-        match[free] = better.argmax(axis=1)[max(n_landmarks - some.start, 0) :]
-        fit[some] = share[np.arange(len(share)), match[some]]
-    trust = np.maximum(fit - 0.3, 0.0) / (1 - 0.3)  # samples less consistent than that are not trusted
+    for rows in blocks(q, 4):  # few samples at once, so that their arrays fit the cache
+        to_places = distances[placed.match[near[rows]]]
+        fits = consistency(upper[rows, :, None], lower[rows, :, None], to_places, (0.03, 0.08))
+        means = (weight[rows, None] @ fits)[:, 0]
+        free = slice(max(rows.start, n_landmarks), rows.stop)
+        total = means + similarity[rows] - similarity[rows].max(axis=1, keepdims=True)
+        match[free] = total.argmax(axis=1)[max(n_landmarks - rows.start, 0) :]
+        fit[rows] = means[np.arange(len(means)), match[rows]]
+    trust = np.maximum(fit - 0.3, 0.0) / (1 - 0.3)  # less consistent samples are not trusted
     trust[:n_landmarks] = _LANDMARK_TRUST
     return Assignment(match, trust, float(fit.mean()))
 
 
 def scale_change(bounds: DistanceBounds, distances: np.ndarray, placed: Assignment) -> float:
-    """Return how much longer distances are on the whole, as far as the boundary has no say in them."""
+    """Return the median ratio of distances on the whole to those on the part that no boundary lengthens.
+
+    Where these are few, a quantile for all short distances takes its place.
+    """
     trust = np.minimum(placed.trust, 1.0)
-    there = distances[np.ix_(placed.match, placed.match)]
-    known = (bounds.upper > 0.04) & (trust[:, None] * trust[None, :] > 0.08) & np.isfinite(there)
-    sure = known & (bounds.lower >= bounds.upper) & (bounds.upper < 0.4)
-    if sure.sum() >= 400:
-        return float(np.median(there[sure] / bounds.upper[sure]))
-    known &= bounds.upper < 0.25
-    return float(np.quantile(there[known] / bounds.upper[known], 0.6)) if known.any() else 1.0
+    on_whole = distances[np.ix_(placed.match, placed.match)]
+    counts = (bounds.upper > 0.04) & (trust[:, None] * trust[None, :] > 0.08) & np.isfinite(on_whole)
+    exact = counts & (bounds.lower >= bounds.upper) & (bounds.upper < 0.4)
+    if exact.sum() >= 400:
+        return float(np.median(on_whole[exact] / bounds.upper[exact]))
+    counts &= bounds.upper < 0.25
+    return float(np.quantile(on_whole[counts] / bounds.upper[counts], 0.6)) if counts.any() else 1.0

@@ -1,4 +1,4 @@
-"""Samples of a part and of the whole: their distances from each other and from the boundary, and SHOT at them."""
+"""Samples of a part and of the whole, with distances from each other and from the boundary, and with SHOT."""
 
 from __future__ import annotations
 
@@ -15,12 +15,15 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
-_LEAST_WEIGHT = 0.05  # of SHOT at samples of a small part that lie on its boundary
+_MIN_WEIGHT = 0.05  # of SHOT at samples of a small part that lie on its boundary
+_SHOT_SUPPORT = 10_000
+"""Support points of SHOT, half of those for a descriptor at every vertex. With fewer in large balls a person with holes
+was placed wrongly."""
 
 
 @dataclass(frozen=True, eq=False)
 class PartSurface:
-    """A mesh at unit area, with its boundary and ready to search for closest points."""
+    """A mesh at unit area, with its boundary and a search for closest points."""
 
     mesh: Mesh
 
@@ -31,7 +34,7 @@ class PartSurface:
 
     @cached_property
     def surface(self) -> ClosestPointQuery:
-        """The mesh with its normals, ready to search for closest points."""
+        """The search for closest points of the mesh."""
         return closest_point_query(self.mesh)
 
 
@@ -43,7 +46,7 @@ class PartSamples(PartSurface):
     distances: np.ndarray  # (q, q): along the surface; infinite between components
     boundary_distance: np.ndarray  # (q,): infinite where there is no boundary
     n_landmarks: int = 0
-    # SHOT at the samples by its radius, as far as :meth:`shot` was asked for it.
+    # SHOT at the samples by its radius, as computed by :meth:`shot` so far.
     descriptors: dict[float, np.ndarray] = field(default_factory=dict)
 
     @property
@@ -54,24 +57,20 @@ class PartSamples(PartSurface):
     def shot(self, radius: float) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
         if radius not in self.descriptors:
-            # Support points of SHOT, half of those that a descriptor at every vertex deserves. With fewer in large
-            # balls a person with holes was placed wrongly.
-            support = 10_000
-            found = shot(self.mesh, radius, at=self.samples, samples=support)
+            found = shot(self.mesh, radius, at=self.samples, samples=_SHOT_SUPPORT)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
 
 
 @dataclass(frozen=True, eq=False)
 class PartPair:
-    """A part and the whole, whether the scale of the part is known, whether the whole may lack something too, and √area
-    of a small part over that of the whole in their files."""
+    """Samples of a part and of the whole, and what is known about their sizes."""
 
     part: PartSamples
     whole: PartSamples
-    fixed_scale: bool = False
-    both_partial: bool = False
-    small_scale: float | None = None
+    fixed_scale: bool = False  # whether the scale of the part is known
+    both_partial: bool = False  # whether the whole may lack something too
+    small_scale: float | None = None  # √area of a small part over that of the whole in their files
 
     @property
     def unmarked(self) -> PartPair:
@@ -83,22 +82,20 @@ class PartPair:
         return distance_bounds(self.part.distances, self.part.boundary_distance, scale)
 
     def shot_weights(self, scale: float, radius: float) -> np.ndarray:
-        """Return how much SHOT counts at each sample of the part, (q,), at most 1.
+        """Return the weight of SHOT at each sample of the part, (q,), at most 1.
 
-        In balls that reach beyond the boundary SHOT of the part is not that of the whole. Of samples of parts of 10 to
-        20 % of a body, the nearer to the boundary they are, the more places look more like theirs than the true one:
-        14 % within a quarter of the radius, 1 % where the ball fits (research/parts.md). Hardly any sample of a small
-        part is farther away.
+        In balls that reach beyond the boundary SHOT of the part is not that of the whole, so samples near the boundary
+        have small weights (research/parts.md).
 
         ``scale``: √area of the part over that of the whole; ``radius``: of SHOT, in √area of the whole.
         """
         fits = np.minimum(self.part.boundary_distance * np.float32(scale / radius), 1.0)
-        return np.maximum(fits / max(float(fits.max()), 1e-12), _LEAST_WEIGHT)
+        return np.maximum(fits / max(float(fits.max()), 1e-12), _MIN_WEIGHT)
 
     def pair_consistency(self, scale: float, match: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return how well distances of two parts agree, (q, q) from 0 to 1, and which pairs count, (q, q) bool.
+        """Return the consistency of the distances of two parts, (q, q) from 0 to 1, and which pairs count, (q, q) bool.
 
-        Either distance may be too long where it may lead around a boundary. Only pairs of near samples count.
+        Either distance may be too long where the shortest path leads around a boundary. Only near samples count.
 
         ``scale``: √area of the part over that of the whole; ``match (q,)``: the whole's sample of each of the part's.
         """

@@ -1,8 +1,13 @@
-"""Search for the scale of the part against the whole, from a thirteenth of its area to all of it."""
+"""Search for the scale of a part against the whole, from a thirteenth of its area to all of it.
+
+At each of a number of scales a few samples of the part are placed, by relaxation labelling and by beam searches. The
+placements with the best support are then refined: all samples are placed, and the scale follows from the distances
+between them, in turn.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,18 +23,19 @@ TRIALS = (
     RelaxationParams((0.06, 0.09, 0.14, 0.2), 100, 30, 1.2),
     RelaxationParams((0.06, 0.09, 0.14, 0.2), 70, 45, 1.2),
 )
-"""The first tries all scales, the others the best of these."""
+"""Parameters of relaxation. The first are used at all scales, the others at the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency tolerate a tenth more or less."""
-LEAST_SCALE, LEAST_MARKED_SCALE, MOST_SCALE = 0.25, 0.1, 1.6
-"""Bounds of the scale that samples may find: a part that shrinks fits nearly everywhere, unless it has landmarks."""
-_SHOT_STEP = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, which placements of like scales share
 LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
-"""Further ones where what is registered is no part, but overlaps with one."""
+"""Further scales where both shapes are parts."""
+MIN_SCALE, MIN_MARKED_SCALE, MAX_SCALE = 0.25, 0.1, 1.6
+"""Bounds of the scale, without and with landmarks: a part that shrinks fits nearly everywhere, unless it has some."""
+_SHOT_STEP = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, which placements of similar scales share
+_N_BEST_SCALES = 3  # scales whose beam searches are continued with all samples
 
 _MIN_CONSISTENCY, _ROUNDS = 0.8, 6
 """Mean consistency with the others, over that of the best tenth, below which a sample of two parts is not trusted, and
-rounds to find that."""
+iterations to compute it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,18 +43,18 @@ class Placement:
     """Samples of the part placed at one scale."""
 
     scale: float  # √area of the part over that of the whole
-    params: RelaxationParams  # those that it began with
+    params: RelaxationParams  # those that it started from
     placed: Assignment
     similarity: np.ndarray  # (q, m): products of descriptors
     weights: np.ndarray | None = None  # (q,): of the samples in :attr:`PartEvidence.similarity_rank`
 
     @property
     def evidence(self) -> PartEvidence:
-        """What the placement shows before registration."""
+        """The evidence for the placement that is known before registration."""
         match = self.placed.match
         own = self.similarity[np.arange(len(match)), match]
-        better = (self.similarity > own[:, None]).sum(axis=1)
-        rank = float(np.average(np.log((better + 1) / self.similarity.shape[1]), weights=self.weights))
+        n_better = (self.similarity > own[:, None]).sum(axis=1)
+        rank = float(np.average(np.log((n_better + 1) / self.similarity.shape[1]), weights=self.weights))
         return PartEvidence(self.placed.support, rank)
 
     @property
@@ -58,9 +64,9 @@ class Placement:
 
 
 def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> np.ndarray:
-    """Return mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks are settled.
+    """Return mean products ``(q, m)`` of the SHOT of both shapes, in balls of equal size; landmarks match each other.
 
-    Those of a small part are weighted: near its boundary distances decide.
+    Samples of a small part are weighted: near its boundary their descriptors are not those of the whole.
     """
     near = _shot_scale(scale)
     total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
@@ -78,17 +84,53 @@ def _shot_scale(scale: float) -> float:
     return float(SCALES[0] * _SHOT_STEP ** round(np.log(scale / SCALES[0]) / np.log(_SHOT_STEP)))
 
 
-def place_by_beams(pair: PartPair, scale: float, similarity: np.ndarray) -> list[Assignment]:
-    """Return placements of a few samples at one ``scale`` by a beam search, best first."""
-    away = pair.part.boundary_distance * np.float32(scale)
-    return beam_search(pair.bounds(scale), away, pair.whole.distances, similarity, pair.part.n_landmarks)
+def rough_placements(
+    pair: PartPair,
+    scale: float,
+    params: RelaxationParams = TRIALS[0],
+    *,
+    by_beams: bool = True,
+    by_relaxation: bool = True,
+    cost: np.ndarray | None = None,
+) -> list[Placement]:
+    """Return placements of a few samples at one ``scale``: by a beam search, best first, and the one by relaxation.
+
+    ``cost (q, m)``: of each sample at each place, in units of the similarity.
+    """
+    similarity = shot_similarity(pair, scale, params)
+    gain = similarity if cost is None else similarity - cost
+    bounds, distances, n_landmarks = pair.bounds(scale), pair.whole.distances, pair.part.n_landmarks
+    placed: list[Assignment] = []
+    if by_beams:
+        boundary_distance = pair.part.boundary_distance * np.float32(scale)
+        placed += beam_search(bounds, boundary_distance, distances, gain, n_landmarks)
+    if by_relaxation:
+        placed.append(relax(bounds, distances, gain, params, n_landmarks))
+    return [Placement(scale, params, one, similarity) for one in placed]
 
 
-def place_by_relaxation(
-    pair: PartPair, scale: float, similarity: np.ndarray, params: RelaxationParams = TRIALS[0]
-) -> Assignment:
-    """Return the placement of the first samples at one ``scale`` by relaxation."""
-    return relax(pair.bounds(scale), pair.whole.distances, similarity, params, pair.part.n_landmarks)
+def try_scales(pair: PartPair, scales: Sequence[float], params: RelaxationParams = TRIALS[0]) -> list[Placement]:
+    """Place a few samples at each of ``scales`` by relaxation; return the placements, the best supported first."""
+    _compute_shot(pair, params)
+    found = parallel(lambda scale: rough_placements(pair, scale, params, by_beams=False)[0], scales)
+    return sorted(found, key=lambda one: -one.placed.support)
+
+
+def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
+    """Return placements of all samples that begin with beam searches at each of ``scales``, at the best three scales.
+
+    A scale is as good as the support of its best beam search.
+    """
+    _compute_shot(pair, TRIALS[0])
+    found = parallel(lambda scale: rough_placements(pair, scale, by_relaxation=False), scales)
+    best = sorted(found, key=lambda some: -some[0].placed.support)[:_N_BEST_SCALES]
+    return parallel(lambda one: place_all(pair, one), [one for some in best for one in some])
+
+
+def _compute_shot(pair: PartPair, params: RelaxationParams) -> None:
+    """Compute the SHOT of the whole, which placements at all scales share."""
+    for radius in params.radii:
+        pair.whole.shot(radius)
 
 
 def place_all(pair: PartPair, one: Placement) -> Placement:
@@ -102,10 +144,10 @@ def place_all(pair: PartPair, one: Placement) -> Placement:
 
 
 def _consistent_trust(pair: PartPair, scale: float, placed: Assignment) -> np.ndarray:
-    """Return how far each sample of a part agrees with those that agree with each other, (q,), from 0 to 1.
+    """Return how well each sample of a part agrees with those that agree with each other, (q,), from 0 to 1.
 
-    What has no place on the other part does not. A power iteration as of Leordeanu and Hebert (2005), with means for
-    sums, so that samples with few neighbours count as much.
+    Samples without a place on the other part do not. This is a power iteration as by Leordeanu and Hebert (2005), with
+    means in place of sums, so that samples with few neighbours count as much.
     """
     fits, near = pair.pair_consistency(scale, placed.match)
     trust = np.minimum(placed.trust, 1.0)
@@ -117,55 +159,24 @@ def _consistent_trust(pair: PartPair, scale: float, placed: Assignment) -> np.nd
     return trust
 
 
-def try_scales(pair: PartPair, scales: Sequence[float], params: RelaxationParams = TRIALS[0]) -> list[Placement]:
-    """Place the first samples at each of ``scales`` by relaxation, the best supported first."""
-    place = place_by_relaxation
-    found = _at_scales(pair, scales, params, lambda scale, alike: [place(pair, scale, alike, params)])
-    return [one for (one,) in found]
-
-
-def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
-    """Place all samples by beam searches at each of ``scales``; those of the three best scales, best first."""
-    found = _at_scales(pair, scales, TRIALS[0], lambda scale, alike: place_by_beams(pair, scale, alike))
-    return parallel(lambda one: place_all(pair, one), [one for some in found[:3] for one in some])
-
-
-def _at_scales(
-    pair: PartPair,
-    scales: Sequence[float],
-    params: RelaxationParams,
-    place: Callable[[float, np.ndarray], list[Assignment]],
-) -> list[list[Placement]]:
-    """The placements at each of ``scales``, the best supported first."""
-    for radius in params.radii:
-        pair.whole.shot(radius)
-
-    def at(scale: float) -> list[Placement]:
-        similarity = shot_similarity(pair, scale, params)
-        return [Placement(scale, params, one, similarity) for one in place(scale, similarity)]
-
-    return sorted(parallel(at, list(scales)), key=lambda some: -some[0].placed.support)
-
-
 def refine_placement(pair: PartPair, one: Placement) -> Placement:
-    """Place all samples, and find the scale with them unless it is known: :func:`settle` before and after descriptors
-    are computed at the scale that was found."""
-    return settle_again(pair, settle(pair, one))
+    """Fit places and scale to each other, then once more with descriptors that are computed at the scale found."""
+    return refit_scale(pair, fit_scale(pair, one))
 
 
-def settle(pair: PartPair, one: Placement) -> Placement:
-    """Place all samples three times, and find the scale with them unless it is known."""
-    least = LEAST_MARKED_SCALE if pair.part.n_landmarks else LEAST_SCALE
+def fit_scale(pair: PartPair, one: Placement) -> Placement:
+    """Place all samples and estimate the scale from the distances between them, three times; a fixed scale stays."""
+    least = MIN_MARKED_SCALE if pair.part.n_landmarks else MIN_SCALE
     for _ in range(3):
         scale, one = one.scale, place_all(pair, one)
         if not pair.fixed_scale:
-            longer = scale_change(pair.bounds(scale), pair.whole.distances, one.placed)
-            one = replace(one, scale=float(np.clip(scale * longer, least, MOST_SCALE)))
+            ratio = scale_change(pair.bounds(scale), pair.whole.distances, one.placed)
+            one = replace(one, scale=float(np.clip(scale * ratio, least, MAX_SCALE)))
     return one
 
 
-def settle_again(pair: PartPair, one: Placement) -> Placement:
-    """Return what :func:`settle` does by descriptors at the scale of the placement."""
+def refit_scale(pair: PartPair, one: Placement) -> Placement:
+    """Do what :func:`fit_scale` does with descriptors at the scale of the placement."""
     if not pair.fixed_scale:
         one = replace(one, similarity=shot_similarity(pair, one.scale, one.params))
-    return settle(pair, one)
+    return fit_scale(pair, one)
