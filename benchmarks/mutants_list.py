@@ -611,8 +611,8 @@ MUTANTS = tuple(
         ("uses > 1) <= _MAX_SHARED * np.count_nonzero(uses)", "uses > 1) <= np.count_nonzero(uses)", "test_bake"),
         # learned kernels, parts of a collection
         (
-            "if wanted is not None and wanted != given:",
-            "if wanted is not None and wanted < given:",
+            "if expected is not None and expected != given:",
+            "if expected is not None and expected < given:",
             "test_learned_search -k landmarks",
         ),
         (
@@ -1023,7 +1023,7 @@ MUTANTS = tuple(
         ("(2.4 * k + 60)", "(2.4 / k + 60)", "test_eigensolver_loose -k progress"),
         ("pinv(maps, rcond=0.05)", "pinv(maps, rcond=0.1)", "test_shape_differences -k hardly"),
         ("lower, bound = _polar_step(energy, right, point, bound)", "lower = None", "test_formulations -k bends_down"),
-        ("rows.append(values[part.to_original])", "rows.append(values)", "test_cleaning -k left_out_change"),
+        ("rows.append(values[cleaned.to_original])", "rows.append(values)", "test_cleaning -k left_out_change"),
         ("signs[worst] *= -1", "signs[worst] *= 1", "test_collection -k handedness"),
         ("csr_array(eye_array(size) - whole)", "csr_array(eye_array(size) + whole)", "test_collection -k frames_of"),
         ("table[:, 0].astype(np.int64) - 1, weights", "table[:, 0].astype(np.int64), weights", "test_transfer_parts"),

@@ -136,14 +136,14 @@ def row(name, source, target, truth, where, marks) -> dict:
     assert found._reindexing is not None
     across, clock = found._reindexing, StageTimer()
     start = time.process_time()
-    inner_points = across.part_s.to_clean[found.target_to_source][across.part_t.to_original]
+    inner_points = across.clean_points(found.target_to_source)
     doubted = (
         np.zeros((0, 2), dtype=np.int64) if marks is None else np.delete(marks, found.score.rejected_landmarks, axis=0)
     )
-    last = register_map(inner_points, across.source, across.target, config, clock, across.landmarks(doubted))
+    last = register_map(inner_points, across.source, across.target, config, clock, across.clean_landmarks(doubted))
     spent = time.process_time() - start
     spectral = found.precise()
-    fitted = spectral if last.precise_map is None else across.place(last.precise_map)
+    fitted = spectral if last.precise_map is None else across.given_precise_map(last.precise_map)
 
     def error(places: PointMap | np.ndarray) -> float:
         some = PointMap(places.faces[where], places.weights[where]) if isinstance(places, PointMap) else places[where]

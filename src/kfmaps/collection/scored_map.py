@@ -44,7 +44,7 @@ def score_pair_maps(
     reindexed = reindexing(*shapes)
     k = min(FINE_FUNCTIONS, len(reindexed.source.basis.eigenvalues), len(reindexed.target.basis.eigenvalues))
     bases = reindexed.source.basis.truncate(k), reindexed.target.basis.truncate(k)
-    points = [reindexed.part_s.to_clean[one[reindexed.part_t.to_original]] for one, _ in maps]
+    points = [reindexed.clean_points(one) for one, _ in maps]
     functional_maps = [to_numpy(to_functional(one, *bases)) for one in points]
     scored: dict[int, ScoredMap] = {}
     for mirrored in sorted({is_reversed for _, is_reversed in maps}):

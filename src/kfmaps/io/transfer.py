@@ -180,9 +180,9 @@ def transfer_by_functions(values: np.ndarray, match: Match, source: Mesh, target
     config = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, registration=None)
     config = replace(config, descriptors=DescriptorConfig(signature="none", landmark_descriptor="none", shot=False))
     reindexed = reindexing(prepare(source, config, name="source"), prepare(target, config, name="target"))
-    points = reindexed.part_s.to_clean[match.target_to_source[reindexed.part_t.to_original]]
+    points = reindexed.clean_points(match.target_to_source)
     bases = reindexed.source.basis.truncate(k_s), reindexed.target.basis.truncate(k_t)
     C = bases[1].project(bases[0].functions[points])
-    columns = values[reindexed.part_s.to_original].reshape(len(reindexed.part_s.to_original), -1).astype(np.float64)
+    columns = values[reindexed.clean_s.to_original].reshape(len(reindexed.clean_s.to_original), -1).astype(np.float64)
     images = transfer_functions(columns, C, *bases, products)
-    return images.reshape(len(images), *values.shape[1:])[reindexed.part_t.to_clean]
+    return images.reshape(len(images), *values.shape[1:])[reindexed.clean_t.to_clean]

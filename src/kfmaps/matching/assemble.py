@@ -1,4 +1,4 @@
-"""The energies of a pair of shapes, made from its descriptors as a configuration says."""
+"""Assemble the energy of a functional map from the descriptors of two shapes, as the configuration says."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ class TermFactory(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class FitProblem:
-    """What two shapes tell a map between them, in either direction; made by :func:`assemble`."""
+    """All that the energy of a map between two shapes is made of, in both directions; made by :func:`assemble`."""
 
     config: Config
     shapes: tuple[Shape, Shape]  # on the points that the fit is made from
-    bases: tuple[Basis, Basis]  # as large as the map, on the device of the work
+    bases: tuple[Basis, Basis]  # as large as the map, on the device of the computation
     kernel: KernelLike  # with every γ a number
     descriptors: Descriptors
     features: Features | None = None  # ``None`` with the exact kernel
@@ -59,13 +59,13 @@ class FitProblem:
 
     @property
     def rank(self) -> int:
-        """Features of the kernel; of an exact one all points."""
+        """Number of kernel features; without Nyström approximation that of all points."""
         sides = (self.descriptors.source, self.descriptors.target)
         return sum(D.shape[0] for D in sides) if self.features is None else int(self.features.source.shape[1])
 
     @property
     def n_operators(self) -> int:
-        """Multiplication operators left after compression."""
+        """Number of multiplication operators after truncation."""
         return 0 if self.multiplications is None else int(self.multiplications[0].shape[0])
 
     @cached_property
@@ -79,33 +79,32 @@ class FitProblem:
         return self._energy(1, 0)
 
     def _energy(self, s: int, t: int) -> Energy:
-        weights, small = self.config.weights, self.bases
-        masked = self.config.formulation
+        weights, bases, formulation = self.config.weights, self.bases, self.config.formulation
         terms: dict[str, Term] = {
-            "laplacian": laplacian_term(small[s], small[t], mask=masked.mask, power=masked.mask_power)
+            "laplacian": laplacian_term(bases[s], bases[t], mask=formulation.mask, power=formulation.mask_power)
         }
         if self.features is None:
             D = (self.descriptors.source, self.descriptors.target)
-            arguments = (self.kernel, small[s], D[s], small[t], D[t])
+            arguments = (self.kernel, bases[s], D[s], bases[t], D[t])
             if weights.descriptors:
                 terms["descriptors"] = kernel_descriptor_term(*arguments)
             if weights.commutativity:
                 terms["commutativity"] = hadamard_term(*arguments)
         elif weights.descriptors:
             F = (self.features.source, self.features.target)
-            terms["descriptors"] = descriptor_term(small[s], F[s], small[t], F[t])
+            terms["descriptors"] = descriptor_term(bases[s], F[s], bases[t], F[t])
         sets = (("commutativity", self.multiplications, 1), ("orientation", self.orientations, -1))
         for name, operators, parity in sets:
             if operators is not None:
                 single = is_numpy(*operators) and _serves_in_single(self.config.operator_rtol)
                 terms[name] = operator_term(operators[s], operators[t], parity, single)
         energy = Energy(terms, {name: getattr(weights, name) for name in terms})
-        pair = [replace(shape, basis=basis) for shape, basis in zip(self.shapes, small, strict=True)]
+        pair = [replace(shape, basis=basis) for shape, basis in zip(self.shapes, bases, strict=True)]
         more = {}
-        for one in self.config.terms:
-            name = _term_name(one)
+        for factory in self.config.terms:
+            name = getattr(factory, "__name__", type(factory).__name__)  # of the function or class
             name = name if name not in (*terms, *more) else f"{name} {len(more) + 1}"
-            more[name] = (float(getattr(one, "weight", 1.0)), complete_term(one(pair[s], pair[t])))
+            more[name] = (float(getattr(factory, "weight", 1.0)), complete_term(factory(pair[s], pair[t])))
         return energy.joined(more)
 
 
@@ -118,9 +117,9 @@ def assemble(
     rng: np.random.Generator,
     whole: tuple[Shape, Shape] | None = None,
 ) -> FitProblem:
-    """Return what ``config`` asks a map to keep: kernel, features and operators, from which energies are made.
+    """Compute kernel, features and operators as ``config`` says, from which the energy is made.
 
-    ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
+    ``bases`` have at least the map's size and are on the device of ``descriptors``. Where ``source`` and ``target`` are
     samples of shapes (:func:`kfmaps.shape.sample_shape`), ``whole`` are those shapes: orientation needs their faces.
     """
     small = (bases[0].truncate(config.basis.n_eigenfunctions), bases[1].truncate(config.basis.n_eigenfunctions))
@@ -143,11 +142,6 @@ def assemble(
     return FitProblem(config, shapes, small, features.kernel, descriptors, features, multiplications, orientations)
 
 
-def _term_name(factory: object) -> str:
-    """Return the name of a term of the user's own in tables of energies: that of its function or class."""
-    return getattr(factory, "__name__", type(factory).__name__)
-
-
 def compressed_operators(bases: tuple[Basis, Basis], features: tuple[Array, Array], rtol: float) -> tuple[Array, Array]:
     """Return packed multiplication operators of the features of both shapes, truncated to ``rtol`` unless it is 0."""
     if rtol:
@@ -159,7 +153,7 @@ def compressed_operators(bases: tuple[Basis, Basis], features: tuple[Array, Arra
 
 
 def _serves_in_single(rtol: float) -> bool:
-    """Return whether a compression to ``rtol`` leaves out more than single precision rounds."""
+    """Return whether a truncation to ``rtol`` leaves out more than single precision rounds."""
     return rtol >= 1e-10
 
 
@@ -180,20 +174,20 @@ def orientation_pair(
 ) -> tuple[Array, Array]:
     """Return operators ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, (k, k), of both shapes (Ren et al. 2018).
 
-    The operators change sign under a mirror, so maps that commute with them keep orientation. Their summed squared
+    The operators change sign under a mirror, so maps that commute with them preserve orientation. Their summed squared
     norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
-    Features on samples are continued to the ``whole`` shapes by what of them lies in the basis.
+    Features on samples are extended to the ``whole`` shapes by their coefficients in the basis.
     """
     operators = []
-    for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
-        if all_of_it is not shape:
-            F, basis = all_of_it.basis.reconstruct(to_numpy(basis.project(F))), all_of_it.basis
-        operators.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F), features.source))
+    for shape, full, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
+        if full is not shape:
+            F, basis = full.basis.reconstruct(to_numpy(basis.project(F))), full.basis
+        operators.append(like(orientation_operators(full.mesh, basis.truncate(k), F), features.source))
     return scale_operators(operators, size)
 
 
 def principal_features(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
-    """Return the ``count`` strongest directions of the features of both shapes, their common mean left out."""
+    """Return the first ``count`` principal components of the features of both shapes, about their common mean."""
     F = [to_numpy(features.source), to_numpy(features.target)]
     mass = [to_numpy(b.mass) for b in bases]
     whole = sum(float(m @ (f * f).sum(axis=1)) for m, f in zip(mass, F, strict=True))
@@ -201,8 +195,8 @@ def principal_features(bases: tuple[Basis, Basis], features: Features, count: in
     F = [f - mean for f in F]
     gram = sum((f * m[:, None]).T @ f for m, f in zip(mass, F, strict=True))
     energies, rotation = np.linalg.eigh(gram)
-    # What is left of constants without their mean is rounding: it tells no side from the other.
-    told = energies > 1e-24 * whole
-    rotation = rotation[:, told][:, ::-1][:, :count]
+    # Constants without their mean are rounding errors.
+    is_signal = energies > 1e-24 * whole
+    rotation = rotation[:, is_signal][:, ::-1][:, :count]
     strongest = [like(f @ rotation, features.source) for f in F]
     return Features(strongest[0], strongest[1], features.kernel)

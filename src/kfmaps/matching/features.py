@@ -1,4 +1,4 @@
-"""The descriptors of a pair of shapes, and the features of the kernel on them."""
+"""Joint descriptors of a pair of shapes, and features of the kernel on them."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.kernels.kernels import KernelLike, Linear, resolve_kernel
 from kfmaps.kernels.landmark_selection import farthest_descriptors, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
-from kfmaps.kernels.transformed import n_kernel_landmarks as taught
+from kfmaps.kernels.transformed import n_kernel_landmarks
 from kfmaps.shape import Shape, sample_shape
 
-EVERY = 200
-"""Energies of the signature and of each landmark in the layout "every-nth"."""
+_N_ENERGIES = 200
+"""Energies of the signature and of each landmark with the energy sampling "every-nth"."""
 
 
 @dataclass(frozen=True, eq=False)
 class Descriptors:
-    """Normalised descriptors ``source (n_s, d)`` and ``target (n_t, d)``, and whose ``landmark (d,)`` each is.
+    """Normalised descriptors ``source (n_s, d)`` and ``target (n_t, d)``, and the ``landmark (d,)`` of each.
 
-    Landmarks are counted from 0; a descriptor of none has −1.
+    Landmarks are counted from 0; −1 stands for none.
     """
 
     source: Array
@@ -44,7 +44,7 @@ class Descriptors:
 
 @dataclass(frozen=True, eq=False)
 class Features:
-    """Features ``source (n_s, r)``, ``target (n_t, r)`` of ``kernel``, every γ of it a number."""
+    """Features ``source (n_s, r)``, ``target (n_t, r)`` of ``kernel``, in which every γ is a number."""
 
     source: Array
     target: Array
@@ -53,7 +53,7 @@ class Features:
 
 @dataclass(frozen=True, eq=False)
 class SampledPair:
-    """Both shapes on the samples that fits are made from, the landmarks ``(l, 2)`` and given descriptors there."""
+    """Samples of both shapes that fits are made from, with landmarks ``(l, 2)`` and the user's descriptors there."""
 
     shapes: tuple[Shape, Shape]
     landmarks: np.ndarray
@@ -82,7 +82,7 @@ def sample_pair_for_fit(
 def user_descriptors(
     source: Shape, target: Shape, config: DescriptorConfig, given: tuple[Array, Array] | None
 ) -> tuple[Array, Array] | None:
-    """Return the descriptors of both shapes that were ``given`` and those that ``config.extra`` computes."""
+    """Return the ``given`` descriptors of both shapes and those that ``config.extra`` computes."""
     if not config.extra:
         return given
     blocks = [given] if given is not None else []
@@ -94,7 +94,7 @@ def user_descriptors(
 
 
 def _given_descriptors(values: Array, shape: Shape) -> np.ndarray:
-    """Return descriptors of the user's own as numbers, checked."""
+    """Return checked descriptors of the user."""
     values = np.asarray(to_numpy(values) if hasattr(values, "shape") else values, dtype=np.float64)
     n = len(shape.mesh.vertices)
     check(values, f"descriptors of {shape.name}", shape=(n, None), remedy="give one row per vertex")
@@ -109,15 +109,16 @@ def pair_descriptors(
     landmarks: np.ndarray,
     given: tuple[Array, Array] | None,
 ) -> Descriptors:
-    """Return descriptors of both shapes as ``config`` asks.
+    """Return descriptors of both shapes as ``config`` says.
 
-    ``bases``: on the device where the work is done; ``landmarks (l, 2)``: pairs "source, target"; l may be 0;
-    ``given``: descriptors of the user's own, beside the computed ones.
+    ``bases``: on the device of the computation; ``landmarks (l, 2)``: pairs "source, target"; ``given``: descriptors of
+    the user, beside the computed ones.
     """
     size = min(config.n_eigenfunctions, *(b.functions.shape[1] for b in bases))
     small = (bases[0].truncate(size), bases[1].truncate(size))
-    sides = [_spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
-    whose = _landmark_of_each(config, len(landmarks))
+    landmarks = landmarks if config.landmark_descriptor != "none" else landmarks[:0]
+    sides = [_spectral_descriptors(basis, small, config, at) for basis, at in zip(small, landmarks.T, strict=True)]
+    landmark = _landmark_of_each(config, len(landmarks))
     if given is not None:
         for i, shape in enumerate((source, target)):
             sides[i].append(like(_given_descriptors(given[i], shape), bases[i].functions))
@@ -141,56 +142,55 @@ def pair_descriptors(
         raise refuse("descriptors", "at least one", "none", remedy)
     xp = namespace(blocks[0][0])
     D_s, D_t = (xp.concat([b[i] for b in blocks], axis=1) for i in (0, 1))
-    others = np.full(D_s.shape[1] - len(whose), -1)
-    return Descriptors(D_s, D_t, np.concatenate([whose, others]))
+    others = np.full(D_s.shape[1] - len(landmark), -1)
+    return Descriptors(D_s, D_t, np.concatenate([landmark, others]))
 
 
 def _spectral_descriptors(
-    side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
+    basis: Basis, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
 ) -> list[Array]:
-    """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
-    marks = landmarks if config.landmark_descriptor != "none" else landmarks[:0]
-    on_signature, per_landmark = spectral_shares(config, len(marks))
+    """Return the signature and the landmark maps of one shape; energies are common to both ``bases``."""
+    n_signature, per_landmark = spectral_shares(config, len(landmarks))
     parts = []
-    if on_signature:
-        parts.append(_family(config.signature, bases[side], bases, None, on_signature))
-    if per_landmark and len(marks):
-        parts.append(_family(config.landmark_descriptor, bases[side], bases, marks, per_landmark))
+    if n_signature:
+        parts.append(_signature(config.signature, basis, bases, None, n_signature))
+    if per_landmark and len(landmarks):
+        parts.append(_signature(config.landmark_descriptor, basis, bases, landmarks, per_landmark))
     if config.energy_sampling == "even" or not parts:
         return parts
-    everything = namespace(*parts).concat(parts, axis=1)
-    return [take(everything, _chosen(everything.shape[1], config.n_spectral), axis=1)]
+    joined = namespace(*parts).concat(parts, axis=1)
+    return [take(joined, _every_nth(joined.shape[1], config.n_spectral), axis=1)]
 
 
-def spectral_shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
-    """Return how many spectral descriptors the signature has, and each of ``marks`` landmarks.
+def spectral_shares(config: DescriptorConfig, n_landmarks: int) -> tuple[int, int]:
+    """Return the numbers of spectral descriptors of the signature and of each landmark.
 
-    In the layout "every-nth" it is those of which every n-th is taken.
+    With the energy sampling "every-nth" they are the numbers before every n-th is taken.
     """
     if config.energy_sampling == "every-nth":
-        return 0 if config.signature == "none" else EVERY, EVERY
+        return 0 if config.signature == "none" else _N_ENERGIES, _N_ENERGIES
     if config.signature == "none":
-        return 0, max(1, config.n_spectral // max(marks, 1))
-    if marks == 0:
+        return 0, max(1, config.n_spectral // max(n_landmarks, 1))
+    if n_landmarks == 0:
         return config.n_spectral, 0
-    per_landmark = max(1, int((1 - config.signature_share) * config.n_spectral) // marks)
-    return max(config.n_spectral - per_landmark * marks, 0), per_landmark
+    per_landmark = max(1, int((1 - config.signature_share) * config.n_spectral) // n_landmarks)
+    return max(config.n_spectral - per_landmark * n_landmarks, 0), per_landmark
 
 
-def _landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
-    """The landmark that each of the spectral descriptors is of, counted from 0, (d,); −1 for the signature."""
-    marks = landmarks if config.landmark_descriptor != "none" else 0
-    on_signature, per_landmark = spectral_shares(config, marks)
-    whose = np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
-    return whose if config.energy_sampling == "even" else whose[_chosen(len(whose), config.n_spectral)]
+def _landmark_of_each(config: DescriptorConfig, n_landmarks: int) -> np.ndarray:
+    """Return the landmark of each spectral descriptor, counted from 0, (d,); −1 for the signature."""
+    n_signature, per_landmark = spectral_shares(config, n_landmarks)
+    landmark = np.concatenate([np.full(n_signature, -1), np.repeat(np.arange(n_landmarks), per_landmark)])
+    return landmark if config.energy_sampling == "even" else landmark[_every_nth(len(landmark), config.n_spectral)]
 
 
-def _chosen(total: int, count: int) -> np.ndarray:
-    """Every n-th of ``total``, ``count`` at most."""
+def _every_nth(total: int, count: int) -> np.ndarray:
+    """Return every n-th number below ``total``, at most ``count``."""
     return np.arange(0, total, max(1, total // count))[:count]
 
 
-def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.ndarray | None, count: int) -> Array:
+def _signature(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.ndarray | None, count: int) -> Array:
+    """Return the heat or wave signature, or its maps of landmarks."""
     if kind == "heat":
         times = heat_times(count, *bases)
         return heat_signature(basis, times) if landmarks is None else heat_map(basis, landmarks, times)
@@ -202,10 +202,10 @@ def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.nda
 
 def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
     """Return the kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
-    wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
-    if wanted is not None and wanted != given:
+    expected, given = n_kernel_landmarks(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
+    if expected is not None and expected != given:
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks)"
-        raise refuse("landmarks", f"{wanted} of them, as the kernel was learned with", str(given), remedy)
+        raise refuse("landmarks", f"{expected} of them, as the kernel was learned with", str(given), remedy)
     sides = descriptors.source, descriptors.target
     rows = [take(D, farthest_descriptors(D, min(100, D.shape[0]), rng)) for D in sides]
     return resolve_kernel(config.kernel, namespace(rows[0]).concat(rows), config.bandwidth_scale)
@@ -231,7 +231,7 @@ def _joint_samples(
     config: NystromConfig,
     rng: np.random.Generator,
 ) -> Array:
-    """Descriptors ``(q, d)`` of the samples of both shapes, half from each except for Cholesky's pivots."""
+    """Return descriptors ``(q, d)`` at samples of both shapes, half from each except for Cholesky's pivots."""
     D_s, D_t = descriptors.source, descriptors.target
     xp = namespace(D_s, D_t)
     if config.sampling.endswith("cholesky"):

@@ -60,9 +60,9 @@ class MatchTask:
     def result(self, points: np.ndarray, C: np.ndarray, trust: np.ndarray, **fields: Any) -> Match:
         """Return the record of a map of the cleaned shapes, in the numbers of those that were handed in."""
         k_t, k_s = C.shape
-        bases = [shape.basis.truncate(k) for shape, k in zip(self.pair.outside, (k_s, k_t), strict=True)]
+        bases = [shape.basis.truncate(k) for shape, k in zip(self.pair.given, (k_s, k_t), strict=True)]
         return Match(
-            target_to_source=self.pair.points(points),
+            target_to_source=self.pair.given_points(points),
             functional_map=C,
             source=self.meshes[0],
             target=self.meshes[1],
@@ -70,7 +70,7 @@ class MatchTask:
             basis_target=bases[1],
             eigenvalues_source=to_numpy(bases[0].eigenvalues),
             eigenvalues_target=to_numpy(bases[1].eigenvalues),
-            local_confidence=self.pair.trust(trust),
+            local_confidence=self.pair.given_confidence(trust),
             landmarks=self.landmarks,
             config=self.config,
             seed=self.seed,
@@ -103,7 +103,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     final = register_map(refined.target_to_source, *shapes, adapted, task.clock, found.landmarks)
     registered = final.registered_vertices
     if registered is not None:
-        registered = pair.bent(registered * MIRROR if found.orientation == "reversing" else registered)
+        registered = pair.given_registered(registered * MIRROR if found.orientation == "reversing" else registered)
     raw, backwards, one = refined.raw_target_to_source, refined.source_to_target, found.fit
     torn = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
     confidence, verdict = lower_by_torn_area(found.confidence, found.verdict, torn)
@@ -116,9 +116,9 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         orientation=found.orientation,
         precise_map=None
         if final.precise_map is None or len(task.meshes[0].faces) == 0
-        else pair.place(final.precise_map),
-        alternatives=tuple(pair.points(points) for points in found.alternatives),
-        source_to_target=None if backwards is None else pair.points_back(backwards),
+        else pair.given_precise_map(final.precise_map),
+        alternatives=tuple(pair.given_points(points) for points in found.alternatives),
+        source_to_target=None if backwards is None else pair.given_points_back(backwards),
         functional_map_back=refined.functional_map_back,
         score=MatchScore(
             found.scores,
@@ -129,13 +129,13 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         ),
         registration=MatchRegistration(registered, final.fit),
         partial=task.partial,
-        fit=_fit_of(one, found.functional_map, None if raw is None else pair.points(raw)),
+        fit=_fit_of(one, found.functional_map, None if raw is None else pair.given_points(raw)),
     )
 
 
 def _still_contradicted(task: MatchTask, found: SearchResult, points: np.ndarray, source: Mesh) -> np.ndarray:
     """Return those of the rejected landmarks (d,) that the finished map ``points (n_t,)`` contradicts too."""
-    rejected, pairs = found.rejected_landmarks, task.pair.landmarks(task.landmarks)
+    rejected, pairs = found.rejected_landmarks, task.pair.clean_landmarks(task.landmarks)
     if len(rejected) == 0 or pairs is None or found.quality is None:
         return rejected
     places = pairs[rejected]
@@ -270,7 +270,7 @@ def match_from_map(
     shapes = task.shapes(known.orientation)
     size = min(FINE_FUNCTIONS, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
-    C = to_numpy(to_functional(task.pair.points_within(points), *bases))
+    C = to_numpy(to_functional(task.pair.clean_points(points), *bases))
     told = {"orientation": known.orientation, "quality": known.quality}
     found = SearchResult(C, known.initialization, None, known.verdict, known.confidence, **told)
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
@@ -302,7 +302,7 @@ def torn_area_fraction(match: Match) -> float | None:
     """
     if match.registration.report is None or match._reindexing is None:
         return None
-    return low_confidence_area(match._reindexing.outside[1].mesh, match.local_confidence)
+    return low_confidence_area(match._reindexing.given[1].mesh, match.local_confidence)
 
 
 def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:

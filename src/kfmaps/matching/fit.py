@@ -1,6 +1,6 @@
-"""One fit: descriptors, kernel features, energy, the minimiser.
+"""Fit a functional map: descriptors, kernel features, energy, its minimizer.
 
-What comes after it, points and their refinement, is in :mod:`kfmaps.matching.finish`.
+Its point map and refinement follow in :mod:`kfmaps.matching.finish`.
 """
 
 from __future__ import annotations
@@ -27,16 +27,18 @@ from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_
 from kfmaps.matching.solve import Fit, solve_problem
 from kfmaps.shape import Shape
 
+_ROBUST_FUNCTIONS = 30
+"""Functions of the fit that robust weights come from: enough to recognize a wrong landmark, a tenth of the work."""
+
 
 @dataclass(frozen=True, eq=False)
 class FitPoints:
-    """The points of two shapes that a fit is made from, and what is known there."""
+    """The points of two shapes that a fit is made from, with their bases and descriptors."""
 
-    shapes: tuple[Shape, Shape]  # all points, or samples that stand for them
-    bases: tuple[Basis, Basis]  # theirs, on the device where the work is done
+    shapes: tuple[Shape, Shape]  # all points, or samples of them
+    bases: tuple[Basis, Basis]  # on the device of the computation
     descriptors: Descriptors
-    # (g,): by which the descriptors of each landmark, or each descriptor, are scaled under a robust loss.
-    weights: np.ndarray | None = None
+    weights: np.ndarray | None = None  # (g,): of each landmark or descriptor under a robust loss
 
 
 def check_landmark_pairs(landmarks: ArrayLike | None, source: Shape, target: Shape) -> np.ndarray:
@@ -80,10 +82,9 @@ def fit(
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
         Of the user's own, used beside those that the configuration names.
     rng : seed or Generator
-        For the choice of points that the fit is made from, and of samples for the kernel.
+        Seed of the points that the fit is made from, and of the samples for the kernel.
     start : (k, k) array, optional
-        Functional map that conjugate gradients start from, zero otherwise: that of settings near to these spares
-        steps in a search over settings.
+        Functional map that conjugate gradients start from; zero by default.
     progress : callable, optional
         ``progress(stage, done)`` with done from 0 to 1.
 
@@ -104,8 +105,8 @@ def fit(
                 *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(seed), (source, target)
             )
         with clock("solve"):
-            found = solve_problem(task, clock.report, start)
-    return replace(found, seconds=clock.seconds, weights=points.weights)
+            result = solve_problem(task, clock.report, start)
+    return replace(result, seconds=clock.seconds, weights=points.weights)
 
 
 def fit_points(
@@ -119,13 +120,13 @@ def fit_points(
     """Return points of both shapes as ``config.fit_samples`` says, with the ``landmarks (l, 2)``, and descriptors."""
     descriptors = user_descriptors(source, target, config.descriptors, descriptors)
     sampled = sample_pair_for_fit(source, target, config.fit_samples, landmarks, descriptors, rng)
-    small, bases = sampled.shapes, (sampled.shapes[0].basis, sampled.shapes[1].basis)
+    shapes, bases = sampled.shapes, (sampled.shapes[0].basis, sampled.shapes[1].basis)
     if config.device != "cpu":
         bases = (bases[0].to(config.device), bases[1].to(config.device))
-    used = pair_descriptors(*small, bases, config.descriptors, sampled.landmarks, sampled.descriptors)
+    joint = pair_descriptors(*shapes, bases, config.descriptors, sampled.landmarks, sampled.descriptors)
     if not config.formulation.weighs_data:
-        return FitPoints(small, bases, used)
-    return FitPoints(small, bases, *robust_weights(used, bases, config))
+        return FitPoints(shapes, bases, joint)
+    return FitPoints(shapes, bases, *robust_weights(joint, bases, config))
 
 
 def robust_weights(
@@ -137,32 +138,31 @@ def robust_weights(
     descriptors, and a robust loss of each landmark's, or of each descriptor, is minimised by reweighting a small fit
     (:class:`kfmaps.fmap.losses.RobustData`). Descriptors of no landmark keep their size when the loss is per landmark.
     """
-    asked = config.formulation
-    if asked.loss_group == "landmark":
+    formulation = config.formulation
+    if formulation.loss_group == "landmark":
         groups = descriptors.landmark
         if not (groups >= 0).any():
             raise refuse("loss per landmark", "landmarks with maps of their own", "none", "take it per descriptor")
     else:
         groups = np.arange(descriptors.source.shape[1])
-    functions = 30  # size of the small fit: enough to tell a wrong landmark, a tenth of the work of the fit itself
-    k = min(functions, config.basis.n_eigenfunctions)
+    k = min(_ROBUST_FUNCTIONS, config.basis.n_eigenfunctions)
     small = [basis.truncate(k) for basis in bases]
     sides = (descriptors.source, descriptors.target)
     P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]
     X = [unpack_operators(multiplication_operators(b, D)) for b, D in zip(small, sides, strict=True)]
     weights = config.weights
-    against = weights.descriptors or 1.0
-    data = RobustData(P[0], P[1], groups, Loss("squared"), X[0], X[1], weights.commutativity / against)
-    alone = Energy(
-        {"laplacian": laplacian_term(small[0], small[1])}, {"laplacian": max(weights.laplacian / against, 1e-6)}
+    unit = weights.descriptors or 1.0
+    data = RobustData(P[0], P[1], groups, Loss("squared"), X[0], X[1], weights.commutativity / unit)
+    laplacian = Energy(
+        {"laplacian": laplacian_term(small[0], small[1])}, {"laplacian": max(weights.laplacian / unit, 1e-6)}
     )
-    how = MinimizeOptions(CG(rtol=1e-4, max_iter=500), max_outer_iter=asked.max_outer_iter, rtol=1e-3)
-    C = minimize(Objective(alone, {"data": (1.0, data)}), replace(how, max_outer_iter=1)).value
-    robust = replace(data, loss=Loss(asked.loss)).scaled(C, asked.loss_scale)
-    C = minimize(Objective(alone, {"data": (1.0, robust)}), how, C).value
+    options = MinimizeOptions(CG(rtol=1e-4, max_iter=500), max_outer_iter=formulation.max_outer_iter, rtol=1e-3)
+    C = minimize(Objective(laplacian, {"data": (1.0, data)}), replace(options, max_outer_iter=1)).value
+    robust = replace(data, loss=Loss(formulation.loss)).scaled(C, formulation.loss_scale)
+    C = minimize(Objective(laplacian, {"data": (1.0, robust)}), options, C).value
     columns = robust.weights(C)
     columns = np.where(groups < 0, 1.0, columns / max(1.0, float(columns[groups >= 0].max())))
     root = like(np.sqrt(columns), descriptors.source)[None, :]
     scaled = replace(descriptors, source=descriptors.source * root, target=descriptors.target * root)
-    first = np.unique(groups, return_index=True)
-    return scaled, columns[first[1][first[0] >= 0]]
+    numbers, first = np.unique(groups, return_index=True)
+    return scaled, columns[first[numbers >= 0]]

@@ -70,8 +70,8 @@ def match(
     config = config or Config()
     prepared = prepare_both(source, target, config, progress=progress)
     pair = reindexing(prepared[0], prepared[1])
-    pairs = check_landmark_pairs(landmarks, *pair.outside)
-    marks, descriptors = pair.landmarks(pairs if len(pairs) else None), pair.descriptors(descriptors)
+    pairs = check_landmark_pairs(landmarks, *pair.given)
+    marks, descriptors = pair.clean_landmarks(pairs if len(pairs) else None), pair.clean_descriptors(descriptors)
     check_match_memory(config, len(prepared[0].mesh.vertices), len(prepared[1].mesh.vertices), len(pairs))
     meshes = (
         source.given_mesh if isinstance(source, Shape) else source,

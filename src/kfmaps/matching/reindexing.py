@@ -1,4 +1,4 @@
-"""Vertex numbers on their way in and out of a match, which works on the inside of its shapes."""
+"""Convert vertex numbers between the given meshes and the cleaned ones, which a match works on."""
 
 from __future__ import annotations
 
@@ -15,85 +15,91 @@ from kfmaps.shape import Shape
 
 @dataclass(frozen=True, eq=False)
 class VertexReindexing:
-    """Two prepared shapes as they are outside and inside; made by :func:`reindexing`."""
+    """Two prepared shapes as they were given and cleaned, n and m vertices each; made by :func:`reindexing`.
 
-    outside: tuple[Shape, Shape]
-    source: Shape  # inside: each place once, without unused vertices and specks (:attr:`kfmaps.shape.Shape.cleaned`)
+    Methods named after ``clean`` return what was given for the cleaned shapes, those named after ``given`` the reverse.
+    """
+
+    given: tuple[Shape, Shape]
+    source: Shape  # cleaned: each place once, without unused vertices and specks (:attr:`kfmaps.shape.Shape.cleaned`)
     target: Shape
-    part_s: CleanedMesh  # how their vertices are numbered
-    part_t: CleanedMesh
+    clean_s: CleanedMesh  # the numbers of their vertices
+    clean_t: CleanedMesh
 
     @property
-    def open(self) -> bool:
-        """Whether numbers are the same on both sides."""
-        return self.part_s.whole and self.part_t.whole
+    def is_identity(self) -> bool:
+        """Whether the numbers are the same."""
+        return self.clean_s.whole and self.clean_t.whole
 
-    def landmarks(self, given: Array) -> Array:
-        """Return landmarks ``(l, 2)`` outside as those inside; ``None`` stays."""
-        if given is None or self.open:
-            return given
-        pairs = check_landmark_pairs(given, *self.outside)
+    def clean_landmarks(self, pairs: Array) -> Array:
+        """Return landmarks ``(l, 2)`` of the cleaned shapes; ``None`` stays."""
+        if pairs is None or self.is_identity:
+            return pairs
+        pairs = check_landmark_pairs(pairs, *self.given)
         columns = []
-        for i, (part, shape) in enumerate(((self.part_s, self.source), (self.part_t, self.target))):
-            within = part.to_clean[pairs[:, i]]
-            first = np.unique(within, return_index=True)[1]
+        for i, (cleaned, shape) in enumerate(((self.clean_s, self.source), (self.clean_t, self.target))):
+            column = cleaned.to_clean[pairs[:, i]]
+            first = np.unique(column, return_index=True)[1]
             again = np.setdiff1d(np.arange(len(pairs)), first)
             if len(again):
-                one, two = pairs[within == within[again[0]], i][:2]
+                one, two = pairs[column == column[again[0]], i][:2]
                 got = f"vertices {one} and {two}, which count as one"
                 raise refuse(f"landmarks on {shape.name}", "each place once", got, "remove one of them")
-            columns.append(within)
+            columns.append(column)
         return np.stack(columns, axis=1)
 
-    def descriptors(self, given: tuple[Array, Array] | None) -> tuple[Array, Array] | None:
-        """Return the rows inside of the user's descriptors ``(n_s, d)``, ``(n_t, d)``; ``None`` stays."""
-        if given is None or self.open:
-            return given
+    def clean_descriptors(self, pair: tuple[Array, Array] | None) -> tuple[Array, Array] | None:
+        """Return the rows of descriptors ``(n_s, d)``, ``(n_t, d)`` at the cleaned vertices; ``None`` stays."""
+        if pair is None or self.is_identity:
+            return pair
         rows = []
-        for values, part, shape in zip(given, (self.part_s, self.part_t), self.outside, strict=True):
+        for values, cleaned, shape in zip(pair, (self.clean_s, self.clean_t), self.given, strict=True):
             values = to_numpy(values) if hasattr(values, "shape") else np.asarray(values)
             name = f"descriptors of {shape.name}"
-            check(values, name, shape=(len(part.to_clean), None), finite=False, remedy="give one row per vertex")
-            rows.append(values[part.to_original])
+            check(values, name, shape=(len(cleaned.to_clean), None), finite=False, remedy="give one row per vertex")
+            rows.append(values[cleaned.to_original])
         return rows[0], rows[1]
 
-    def points(self, target_to_source: np.ndarray) -> np.ndarray:
-        """Return a point map inside as one outside, (n_t,); −1 stays."""
-        return np.where(target_to_source < 0, -1, self.part_s.to_original[target_to_source])[self.part_t.to_clean]
+    def clean_points(self, target_to_source: np.ndarray) -> np.ndarray:
+        """Return a point map (n_t,) as one of the cleaned shapes, (m_t,)."""
+        return self.clean_s.to_clean[target_to_source[self.clean_t.to_original]]
 
-    def points_within(self, target_to_source: np.ndarray) -> np.ndarray:
-        """Return a point map of the shapes as handed in, (n_t,), as one of the cleaned shapes."""
-        return self.part_s.to_clean[target_to_source[self.part_t.to_original]]
+    def given_points(self, target_to_source: np.ndarray) -> np.ndarray:
+        """Return a point map of the cleaned shapes, (m_t,), as one of the given ones, (n_t,); −1 stays."""
+        return np.where(target_to_source < 0, -1, self.clean_s.to_original[target_to_source])[self.clean_t.to_clean]
 
-    def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
-        """Return a point map back inside as one outside, (n_s,)."""
-        return self.part_t.to_original[source_to_target][self.part_s.to_clean]
+    def given_points_back(self, source_to_target: np.ndarray) -> np.ndarray:
+        """Return a point map in the other direction of the cleaned shapes, (m_s,), as one of the given ones, (n_s,)."""
+        return self.clean_t.to_original[source_to_target][self.clean_s.to_clean]
 
-    def place(self, places: PointMap) -> PointMap:
-        """Return points in triangles inside as such outside."""
-        faces, weights, turned = self.part_s.faces_to_original[places.faces], places.weights, self.part_s.turned
+    def given_precise_map(self, places: PointMap) -> PointMap:
+        """Return points in triangles of the cleaned source as points in triangles of the given one."""
+        faces, weights, turned = self.clean_s.faces_to_original[places.faces], places.weights, self.clean_s.turned
         if turned is not None:
             weights = np.where(turned[places.faces][:, None], weights[:, ::-1], weights)
-        return PointMap(faces[self.part_t.to_clean], weights[self.part_t.to_clean])
+        return PointMap(faces[self.clean_t.to_clean], weights[self.clean_t.to_clean])
 
-    def bent(self, vertices: np.ndarray) -> np.ndarray:
-        """Return registered vertices of the source inside (m_s, 3) as outside (n_s, 3), in the target's unit there."""
-        here, there = self.target.mesh.vertices, self.outside[1].mesh.vertices[self.part_t.to_original]
-        scale = np.linalg.norm(there - there.mean(axis=0)) / np.linalg.norm(here - here.mean(axis=0))
-        return scale * (vertices - here.mean(axis=0))[self.part_s.to_clean] + there.mean(axis=0)
+    def given_registered(self, vertices: np.ndarray) -> np.ndarray:
+        """Return registered vertices (m_s, 3) of the cleaned source for the given one, (n_s, 3), on its target."""
+        cleaned, given = self.target.mesh.vertices, self.given[1].mesh.vertices[self.clean_t.to_original]
+        scale = np.linalg.norm(given - given.mean(axis=0)) / np.linalg.norm(cleaned - cleaned.mean(axis=0))
+        return scale * (vertices - cleaned.mean(axis=0))[self.clean_s.to_clean] + given.mean(axis=0)
 
-    def overlap(self, source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return probabilities inside (m_s,), (m_t,) as outside (n_s,), (n_t,): 0 in vertices of no face."""
-        sides = ((source, self.part_s), (target, self.part_t))
-        first, second = (np.where(part.unreferenced, 0.0, values[part.to_clean]) for values, part in sides)
-        return first, second
+    def given_overlap(self, source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return probabilities (m_s,), (m_t,) for the given shapes, (n_s,), (n_t,): 0 at vertices of no face."""
+        return _at_given(source, self.clean_s), _at_given(target, self.clean_t)
 
-    def trust(self, confidence: np.ndarray) -> np.ndarray:
-        """Return confidence inside (m_t,) as outside (n_t,): 0 in vertices of no face."""
-        return np.where(self.part_t.unreferenced, 0.0, confidence[self.part_t.to_clean])
+    def given_confidence(self, confidence: np.ndarray) -> np.ndarray:
+        """Return the local confidence (m_t,) for the given target, (n_t,): 0 at vertices of no face."""
+        return _at_given(confidence, self.clean_t)
+
+
+def _at_given(values: np.ndarray, cleaned: CleanedMesh) -> np.ndarray:
+    """Return values at the cleaned vertices, (m,), for the given ones, (n,): 0 at vertices of no face."""
+    return np.where(cleaned.unreferenced, 0.0, values[cleaned.to_clean])
 
 
 def reindexing(source: Shape, target: Shape) -> VertexReindexing:
     """Return the numbers of the cleaned meshes of two prepared shapes beside those of the meshes as given."""
-    (within_s, part_s), (within_t, part_t) = source.cleaned, target.cleaned
-    return VertexReindexing((source, target), within_s, within_t, part_s, part_t)
+    (cleaned_s, clean_s), (cleaned_t, clean_t) = source.cleaned, target.cleaned
+    return VertexReindexing((source, target), cleaned_s, cleaned_t, clean_s, clean_t)

@@ -231,7 +231,7 @@ class Match:
             raise refuse("energies", "a match of whole shapes with their bases", got, "match the shapes again")
         shapes = pair.source, mirror_image(pair.target) if self.orientation == "reversing" else pair.target
         kept = np.delete(self.landmarks, self.score.rejected_landmarks, axis=0)
-        points = fit_points(*shapes, config, pair.landmarks(kept), rng=self.seed)
+        points = fit_points(*shapes, config, pair.clean_landmarks(kept), rng=self.seed)
         problem = assemble(
             *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(self.seed), shapes
         )
@@ -267,7 +267,7 @@ class Match:
             columns = guidance and guidance.embedding_columns(weight, *bases)
         faces = pair.source.mesh.faces
         with limit_threads(self.config.threads):
-            return pair.place(to_precise_map(self.functional_map, *bases, faces, columns))
+            return pair.given_precise_map(to_precise_map(self.functional_map, *bases, faces, columns))
 
     def precise_inverse(self) -> PointMap:
         """Return a point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.

@@ -48,7 +48,7 @@ def match_partial(
     ratio = None if source.extent is None or target.extent is None else target.extent / source.extent
     is_target = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
     part, whole = (target, source) if is_target else (source, target)
-    pairs = task.pair.landmarks(task.landmarks)
+    pairs = task.pair.clean_landmarks(task.landmarks)
     marks = pairs[:, ::-1] if is_target else pairs
     place_with = partial(
         place_part,
@@ -80,7 +80,7 @@ def match_partial(
         _slanted_functional_map(points, source, target, scale if is_target else 1 / scale),
         local_confidence(*meshes, points, sized=True),
         # Where a vertex has no counterpart this is the nearest point that could be one.
-        precise_map=task.pair.place(places),
+        precise_map=task.pair.given_precise_map(places),
         verdict=verdict(*judged),
         confidence=probability(*judged),
         score=MatchScore(
@@ -89,9 +89,9 @@ def match_partial(
             rejected_landmarks=np.flatnonzero(errors > SCORE.part.max_landmark_error),
         ),
         # The source's vertices on the target at unit area, where the source is the part.
-        registration=MatchRegistration(None if is_target else task.pair.bent(found.registration.vertices)),
+        registration=MatchRegistration(None if is_target else task.pair.given_registered(found.registration.vertices)),
         partial=MatchPart(
-            which, describe_part(which, scale, overlaps, why), scale, True, *task.pair.overlap(*overlaps)
+            which, describe_part(which, scale, overlaps, why), scale, True, *task.pair.given_overlap(*overlaps)
         ),
     )
     return match, bool(min(mass_p @ overlap.part, mass_w @ overlap.whole) > SCORE.part.whole_overlap)
