@@ -257,7 +257,8 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "vertices_of_match", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)
+    with kfmaps.limit_threads(1):
+        found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)
     names = {c.name for c in found}
     assert isinstance(other, Candidate)
     assert {found[0].name, other.name} == names
@@ -266,9 +267,9 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
-    assert f"{mirror}" not in {
-        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)[0]
-    }
+    with kfmaps.limit_threads(1):
+        found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)[0]
+    assert f"{mirror}" not in {c.name for c in found}
     assert len(calls) == 5
 
 

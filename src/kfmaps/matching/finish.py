@@ -28,7 +28,6 @@ from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
 from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, torn_score
 from kfmaps.matching.search_result import SearchResult
-from kfmaps.matching.solve import Fit
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
 
@@ -42,12 +41,12 @@ UNLIKE_LOCAL_SCALING = 0.01
 
 @dataclass(frozen=True, eq=False)
 class MatchTask:
-    """Two shapes to match and what every step of it needs."""
+    """Two shapes to match, and all that every step needs."""
 
-    meshes: tuple[Mesh, Mesh]  # as they were handed in
-    pair: VertexReindexing  # the prepared shapes, as handed in and cleaned
+    meshes: tuple[Mesh, Mesh]  # as they were given
+    pair: VertexReindexing  # the prepared shapes, as given and cleaned
     config: Config
-    landmarks: np.ndarray  # (l, 2): in the numbers of ``meshes``
+    landmarks: np.ndarray  # (l, 2): vertices of ``meshes``
     seed: int
     clock: StageTimer
     partial: MatchPart = field(default_factory=MatchPart)  # why the shapes were taken for whole
@@ -57,8 +56,8 @@ class MatchTask:
         target = self.pair.target
         return self.pair.source, mirror_image(target) if orientation == "reversing" else target
 
-    def result(self, points: np.ndarray, C: np.ndarray, trust: np.ndarray, **fields: Any) -> Match:
-        """Return the record of a map of the cleaned shapes, in the numbers of those that were handed in."""
+    def result(self, points: np.ndarray, C: np.ndarray, local_confidence: np.ndarray, **fields: Any) -> Match:
+        """Return the match of a point map of the cleaned shapes, with its functional map and local confidence."""
         k_t, k_s = C.shape
         bases = [shape.basis.truncate(k) for shape, k in zip(self.pair.given, (k_s, k_t), strict=True)]
         return Match(
@@ -70,7 +69,7 @@ class MatchTask:
             basis_target=bases[1],
             eigenvalues_source=to_numpy(bases[0].eigenvalues),
             eigenvalues_target=to_numpy(bases[1].eigenvalues),
-            local_confidence=self.pair.given_confidence(trust),
+            local_confidence=self.pair.given_confidence(local_confidence),
             landmarks=self.landmarks,
             config=self.config,
             seed=self.seed,
@@ -83,11 +82,11 @@ class MatchTask:
 
 
 def refine_and_register(task: MatchTask, found: SearchResult, guidance: DescriptorGuidance | None) -> Match:
-    """Return the match of a map that a search or a fit has ``found``: refined, registered, in the numbers handed in."""
+    """Refine the map of a search or of a fit on all vertices, register it, and return the match."""
     pair, config, shapes = task.pair, task.config, task.shapes(found.orientation)
     back = None
     if config.formulation.bidirectional:
-        # The adjoint, where a search has found the map: its candidates are refined one way.
+        # A search refines its candidates in one direction; the other one starts from the adjoint.
         back = found.functional_map.T if found.fit is None or found.fit.back is None else found.fit.back
     adapted = adapt_settings(config, found, task.seed)
     refined = refine_map(
@@ -95,18 +94,20 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         *shapes,
         adapted,
         raw=found.initialization == ONE_FIT,
-        led=guidance,
+        guidance=guidance,
         back=back,
         progress=task.clock.report,
     )
     task.clock.seconds.update(refined.seconds)
     final = register_map(refined.target_to_source, *shapes, adapted, task.clock, found.landmarks)
-    registered = final.registered_vertices
+    registered, precise_map = final.registered_vertices, final.precise_map
     if registered is not None:
         registered = pair.given_registered(registered * MIRROR if found.orientation == "reversing" else registered)
-    raw, backwards, one = refined.raw_target_to_source, refined.source_to_target, found.fit
-    torn = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
-    confidence, verdict = lower_by_torn_area(found.confidence, found.verdict, torn)
+    if precise_map is not None:
+        precise_map = pair.given_precise_map(precise_map) if len(task.meshes[0].faces) else None
+    raw, back_points = refined.raw_target_to_source, refined.source_to_target
+    torn_area = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
+    confidence, verdict = lower_by_torn_area(found.confidence, found.verdict, torn_area)
     return task.result(
         final.target_to_source,
         refined.functional_map,
@@ -114,11 +115,9 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         verdict=verdict,
         confidence=confidence,
         orientation=found.orientation,
-        precise_map=None
-        if final.precise_map is None or len(task.meshes[0].faces) == 0
-        else pair.given_precise_map(final.precise_map),
+        precise_map=precise_map,
         alternatives=tuple(pair.given_points(points) for points in found.alternatives),
-        source_to_target=None if backwards is None else pair.given_points_back(backwards),
+        source_to_target=None if back_points is None else pair.given_points_back(back_points),
         functional_map_back=refined.functional_map_back,
         score=MatchScore(
             found.scores,
@@ -129,22 +128,25 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         ),
         registration=MatchRegistration(registered, final.fit),
         partial=task.partial,
-        fit=_fit_of(one, found.functional_map, None if raw is None else pair.given_points(raw)),
+        fit=_fit_record(found, None if raw is None else pair.given_points(raw)),
     )
 
 
 def _still_contradicted(task: MatchTask, found: SearchResult, points: np.ndarray, source: Mesh) -> np.ndarray:
-    """Return those of the rejected landmarks (d,) that the finished map ``points (n_t,)`` contradicts too."""
+    """Return the rejected landmarks (d,) that the point map on all vertices contradicts too."""
     rejected, pairs = found.rejected_landmarks, task.pair.clean_landmarks(task.landmarks)
     if len(rejected) == 0 or pairs is None or found.quality is None:
         return rejected
-    places = pairs[rejected]
-    away = geodesic_distances(source, places[:, 0])[np.arange(len(places)), points[places[:, 1]]]
-    return rejected[away > max_landmark_error(found.quality)]
+    pairs = pairs[rejected]
+    errors = geodesic_distances(source, pairs[:, 0])[np.arange(len(pairs)), points[pairs[:, 1]]]
+    return rejected[errors > max_landmark_error(found.quality)]
 
 
 def _doubt_exchanged(confidence: np.ndarray, points: np.ndarray, found: SearchResult, source: Mesh) -> np.ndarray:
-    """Return the local confidence (n_t,), lower where a map with two limbs exchanged that comes near goes elsewhere."""
+    """Return the local confidence (n_t,), lower where an alternative that casts a doubt goes elsewhere.
+
+    An alternative that is better itself, as a map to the mirror image may be, changes nothing.
+    """
     for other, margin in zip(found.alternatives, found.doubts, strict=False):
         if margin >= 0.0:
             moved = np.linalg.norm(source.vertices[other] - source.vertices[points], axis=1) > SCORE.moved_distance
@@ -152,28 +154,27 @@ def _doubt_exchanged(confidence: np.ndarray, points: np.ndarray, found: SearchRe
     return confidence
 
 
-def _fit_of(one: Fit | None, C: np.ndarray, points: np.ndarray | None) -> MatchFit:
-    """Return the record of the fit ``one`` behind the map ``C``; empty where there was none."""
-    if one is None:
-        return MatchFit(C, points)
-    residuals = np.asarray(one.solution.residuals, dtype=np.float64)
+def _fit_record(found: SearchResult, points: np.ndarray | None) -> MatchFit:
+    """Return the record of the map before its refinement, with its point map, and of the fit behind it, if any."""
+    fit = found.fit
+    if fit is None:
+        return MatchFit(found.functional_map, points)
+    residuals = np.asarray(fit.solution.residuals, dtype=np.float64)
     residuals = residuals / (residuals[0] if len(residuals) and residuals[0] > 0 else 1.0)
-    status, steps = one.solution.status, one.solution.steps
-    facts = residuals, one.energies, one.kernel, one.rank, one.n_operators, one.weights
-    return MatchFit(C, points, len(one.functional_map), status, steps, *facts)
+    facts = residuals, fit.energies, fit.kernel, fit.rank, fit.n_operators, fit.weights
+    size, status, steps = len(fit.functional_map), fit.solution.status, fit.solution.steps
+    return MatchFit(found.functional_map, points, size, status, steps, *facts)
 
 
 @dataclass(frozen=True, eq=False)
 class PostprocessedMap:
-    """What :func:`refine_map` returns."""
+    """A map on all vertices; made by :func:`refine_map`."""
 
     target_to_source: np.ndarray  # (n_t,): a source vertex for each target vertex
-    functional_map: np.ndarray  # (k_t, k_s): of that map
-    # (n_t,): the point map before the refinement, where it was asked for or there is none.
-    raw_target_to_source: np.ndarray | None
+    functional_map: np.ndarray  # (k_t, k_s): of the point map
+    raw_target_to_source: np.ndarray | None  # (n_t,): the point map before the refinement, if it was computed
     seconds: dict[str, float]
-    # (n_s,): a target vertex for each source vertex, where a map back was given.
-    source_to_target: np.ndarray | None = None
+    source_to_target: np.ndarray | None = None  # (n_s,): the other direction, if both were refined
     functional_map_back: np.ndarray | None = None  # (k_s, k_t): its functional map
 
 
@@ -184,22 +185,22 @@ def refine_map(
     config: Config,
     *,
     raw: bool = True,
-    led: DescriptorGuidance | None = None,
+    guidance: DescriptorGuidance | None = None,
     back: Array | None = None,
     progress: Progress | None = None,
 ) -> PostprocessedMap:
-    """Return the points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
+    """Return the point map of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
-    ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
-    or, without it, SHOT, where both shapes have it. With a map ``back (k_s, k_t)`` both are finished: ZoomOut refines
-    them together (:meth:`kfmaps.fmap.zoomout.ZoomOut.bidirectional`), ICP each by itself.
+    ``raw``: compute the point map before the refinement too. ``guidance``: for a refinement that takes guidance; by
+    default that of SHOT, if both shapes have it. ``back (k_s, k_t)``: a map in the other direction to refine too:
+    ZoomOut refines both together (:meth:`kfmaps.fmap.zoomout.ZoomOut.bidirectional`), ICP each by itself.
     """
     refine: Any = config.refinement
     clock = StageTimer(progress)
     bases = (source.basis, target.basis)
     if config.device != "cpu":
         bases = (bases[0].to(config.device), bases[1].to(config.device))
-    C, points, other = like(C, bases[0].functions), None, None
+    C, points, backward = like(C, bases[0].functions), None, None
     back = None if back is None else like(back, C)
     with limit_threads(config.threads), one_blas_thread():
         if raw or refine is None:
@@ -207,23 +208,23 @@ def refine_map(
                 points = to_points(C, *bases)
         if refine is None:
             assert points is not None
-            found = Refined(C, points, ())
+            forward = Refined(C, points, ())
             if back is not None:
-                other = Refined(back, to_points(back, bases[1], bases[0]), ())
+                backward = Refined(back, to_points(back, bases[1], bases[0]), ())
         else:
             report = partial(clock.report, "refinement")
             weight = getattr(refine, "descriptor_weight", 0)
-            guide = {"guide": led or descriptor_guidance(source.shot, target.shot)} if weight else {}
+            guide = {"guide": guidance or descriptor_guidance(source.shot, target.shot)} if weight else {}
             with clock("refinement"):
                 if back is not None and hasattr(refine, "bidirectional"):
-                    found, other = refine.bidirectional(C, back, *bases, progress=report, **guide)
+                    forward, backward = refine.bidirectional(C, back, *bases, progress=report, **guide)
                 else:
-                    found = refine(C, *bases, points=points, progress=report, **guide)
+                    forward = refine(C, *bases, points=points, progress=report, **guide)
                     if back is not None:
                         swapped = {name: one and one.swapped() for name, one in guide.items()}
-                        other = refine(back, bases[1], bases[0], **swapped)
-    ends = (None, None) if other is None else (other.target_to_source, to_numpy(other.functional_map))
-    return PostprocessedMap(found.target_to_source, to_numpy(found.functional_map), points, clock.seconds, *ends)
+                        backward = refine(back, bases[1], bases[0], **swapped)
+    ends = (None, None) if backward is None else (backward.target_to_source, to_numpy(backward.functional_map))
+    return PostprocessedMap(forward.target_to_source, to_numpy(forward.functional_map), points, clock.seconds, *ends)
 
 
 def adapt_settings(config: Config, found: SearchResult, seed: int) -> Config:
@@ -245,9 +246,9 @@ def adapt_settings(config: Config, found: SearchResult, seed: int) -> Config:
 
 @dataclass(frozen=True, eq=False)
 class KnownMap:
-    """A map that is known but for its details; the fields that are not explained go into the match."""
+    """A rough map, as a composition of other maps, with fields of its match."""
 
-    points: np.ndarray  # (n_t,): a source vertex for each target vertex: of a composition of other maps, say
+    points: np.ndarray  # (n_t,): a source vertex for each target vertex
     initialization: str
     orientation: Literal["preserving", "reversing"] = "preserving"
     verdict: str = "unchecked"
@@ -259,7 +260,7 @@ class KnownMap:
 def match_from_map(
     source: Shape, target: Shape, known: KnownMap, config: Config | None = None, rng: int | np.random.Generator = 0
 ) -> Match:
-    """Finish a map that is ``known`` but for its details as :func:`match` finishes the one that it has found."""
+    """Refine and register a ``known`` rough map as :func:`kfmaps.match` does with the map of a search."""
     config = config or Config()
     for shape in (source, target):
         check_prepared(shape, config)
@@ -271,18 +272,17 @@ def match_from_map(
     size = min(FINE_FUNCTIONS, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.clean_points(points), *bases))
-    told = {"orientation": known.orientation, "quality": known.quality}
-    found = SearchResult(C, known.initialization, None, known.verdict, known.confidence, **told)
+    judged = known.verdict, known.confidence
+    found = SearchResult(C, known.initialization, None, *judged, orientation=known.orientation, quality=known.quality)
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
     return replace(result, alternatives=known.alternatives)
 
 
 def better_match(one: Match, other: Match) -> Match:
-    """Return the ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
+    """Return the match with the better :func:`final_score`, with the seconds of ``one``; ``one`` if it is unknown.
 
-    Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
-    only where a limb is torn or has been sent elsewhere, which no score of the search tells so well. Without that fit
-    nothing can be told.
+    Between unlike shapes distances nearby change everywhere. After registration they change much only where a limb is
+    torn or mapped elsewhere, which the score of a search does not show as well.
     """
     if torn_area_fraction(one) is None or torn_area_fraction(other) is None or final_score(other) <= final_score(one):
         return one
@@ -290,15 +290,14 @@ def better_match(one: Match, other: Match) -> Match:
 
 
 def final_score(match: Match) -> float:
-    """Return the score of a match that a search has found, less the cost of its torn area."""
+    """Return the score of the match of a search, less the cost of its torn area."""
     return torn_score(match.score.scores[0], torn_area_fraction(match))
 
 
 def torn_area_fraction(match: Match) -> float | None:
-    """Return the share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
+    """Return the share of the target where a registered match does not preserve distances nearby, from 0 to 1.
 
-    Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
-    distances between shapes of other proportions are kept badly everywhere.
+    Return ``None`` for a match without registration: there distances between unlike shapes change everywhere.
     """
     if match.registration.report is None or match._reindexing is None:
         return None
