@@ -340,7 +340,7 @@ MUTANTS = tuple(
             "test_extremities -k evidence",
         ),
         (
-            "deformed = -numbers.w_deformation",
+            "deformation = -numbers.w_deformation",
             "deformed = numbers.w_deformation",
             "test_extremities -k likelier",
         ),
@@ -489,7 +489,7 @@ MUTANTS = tuple(
         ),
         ("picture = names.pop() if len(names) == 1 else None", "picture = names.pop()", "test_files_obj_picture"),
         # parts
-        ("    fits -= evidence.landmark_cost\n", "", "test_score"),
+        ("    score -= evidence.landmark_cost\n", "", "test_score"),
         ("part_landmark_cost(errors(found), two)", "0.0", "test_parts_alternatives"),
         ("tuple(one.score + paid for", "tuple(one.score for", "test_parts_alternatives"),
         ("return missed * (", "return (", "test_score"),
@@ -637,12 +637,12 @@ MUTANTS = tuple(
             ALTERNATE,
         ),
         (
-            "strained = -numbers.w_strain",
-            "strained = numbers.w_strain",
+            "strain = -numbers.w_strain",
+            "strain = numbers.w_strain",
             "test_extremities -k likelier",
         ),
         (
-            "- extremities + deformed",
+            "- extremities + deformation",
             "+ extremities + deformed",
             "test_extremities -k likelier",
         ),
@@ -669,8 +669,8 @@ MUTANTS = tuple(
         ),
         ("order[0].score > least", "True", "test_registration_evidence -k asked_for"),
         (
-            "differs = -numbers.w_shot",
-            "differs = numbers.w_shot",
+            "shot = -numbers.w_shot",
+            "shot = numbers.w_shot",
             "test_registration_evidence -k over_usual",
         ),
         (

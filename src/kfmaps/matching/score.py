@@ -1,9 +1,14 @@
-"""Judge candidate maps without knowing the truth: evidence, weights, thresholds and the calibration.
+"""Score candidate maps without knowing the truth: evidence, weights, thresholds and the calibration.
 
-No single measure is enough. A mirrored map of a symmetric body distorts nothing, a map that swaps front and back *and*
-left and right even keeps orientation, and a map that collapses everything to one point is smooth. A score weighs the
-measures, and a logistic function turns it into the probability that the map is right: that its mean geodesic error is
-below 0.08 √area. Whole shapes and parts share the calibration. All numbers are fields of :data:`SCORE`.
+No single measure is enough. A mirrored map of a symmetric body preserves distances, a map that swaps front and back
+*and* left and right even preserves orientation, and a map of everything to one point is smooth.
+
+1. :class:`Quality` has the measures of a map on samples; their weighted sum is the score of the map alone.
+2. :class:`Candidate` adds evidence from registration, extremities and landmarks, which :func:`candidate_score` weighs.
+3. :func:`probability` turns the score of a map and its margin over the best distinct candidate into the probability
+   that the map is right, that is, that its mean geodesic error is below 0.08 √area. :func:`verdict` puts it into words.
+
+Parts are scored likewise (:class:`PartEvidence`, :func:`part_score`). All numbers are fields of :data:`SCORE`.
 """
 
 from __future__ import annotations
@@ -34,10 +39,10 @@ class Calibration:
     middle: float = -12.0
     """Score at which half of all maps are right."""
     tie: float = 1.4
-    """Margin at which the doubt that a different map casts has fallen to 1/e. A map that swaps front and back has
-    preceded the right one by 2.1."""
+    """Margin at which the doubt cast by a different map has fallen to 1/e. A map that swaps front and back has been
+    better than the right one by 2.1."""
     max_margin: float = math.inf
-    """Margin from which more does not count, so that no other map is called as good."""
+    """Largest margin that counts. With it a map is never "ambiguous"."""
     usual_log_deformation: float = -3.6
     """Logarithm of the deformation energy of right maps at a score of 0."""
     log_deformation_per_score: float = -0.233
@@ -55,18 +60,18 @@ class Calibration:
 
 @dataclass(frozen=True)
 class PartScoring:
-    """Numbers that parts are judged by; see research/parts.md for the shapes that they were chosen on."""
+    """Numbers that parts are scored by; see research/parts.md for the shapes that they were chosen on."""
 
     calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, tie=1.3, max_margin=3.0))
     """Fitted by `benchmarks/parts_verdict.py`."""
     calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0))
-    """That of two parts, whose right placements score less; fitted by the same to `benchmarks/part_to_part.py`."""
+    """Of two parts, whose right placements have lower scores; fitted to the pairs of `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0
     """Weight of :attr:`PartEvidence.pair_consistency` over :attr:`usual_pair_consistency`."""
     usual_pair_consistency: float = 0.85
-    """That of right placements of two parts: 0.75 to 0.93, where wrong ones have 0.5 to 0.78."""
+    """Usual consistency of right placements of two parts: they have 0.75 to 0.93, wrong ones 0.5 to 0.78."""
     w_similarity_rank: float = 1.0
     """Weight of :attr:`PartEvidence.similarity_rank`."""
     w_gap: float = 50.0
@@ -74,21 +79,21 @@ class PartScoring:
     w_flipped: float = 4.0
     """Weight of the share of the area whose normals contradict the whole's."""
     w_deformation: float = 3.0
-    """Weight of the logarithm of the deformation energy. A half of a body laid on its other half, front to back, agrees
-    in all else; that it deforms by half as much again counts alike for stiff shapes and for soft ones."""
+    """Weight of the logarithm of the deformation energy. A half of a body placed on the other half, front to back,
+    differs from the right placement in nothing else."""
     w_scale: float = 1.5
-    """Most that the scale of a small part may cost: what shrinks fits nearly everywhere."""
+    """Largest cost of the scale of a small part: a part that shrinks fits nearly everywhere."""
     other_scale: float = 0.26
-    """:attr:`PartEvidence.scale_change` from which it costs that, as if the unit were another: a factor of 1.3. Right
-    parts have up to 1.16 from one person to another."""
+    """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.3. Right parts have up to
+    1.16 from one person to another."""
     base_deformation: float = 0.005
-    """Deformation energy that any part shows, by its mesh alone."""
+    """Deformation energy of any part, by its mesh alone."""
     distinct_distance: float = 0.1
     """Median distance between placed samples, in √area of the whole, from which two placements differ."""
     full_area: float = 0.25
     """Area of the part, over that of the whole, from which a margin counts in full (research/parts.md)."""
     hopeless_margin: float = 5.0
-    """Score by which a placement is too far behind to be refined: refinement has gained at most 2.3."""
+    """Score behind the best from which a placement is not refined: refinement has gained at most 2.3."""
     early_exit_score: float = 17.5
     """Score of the best supported placement from which no other is looked for but its alternatives."""
     early_exit_agreement: float = 0.97
@@ -97,27 +102,27 @@ class PartScoring:
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
     whole_overlap: float = 0.95
-    """Common share of the area of both shapes from which neither is a part."""
+    """Share of the area of both shapes in the overlap from which neither is a part."""
     max_landmark_error: float = 0.1
     """Error of a landmark, in √area of the whole, from which a placement contradicts it."""
     landmark_cost: float = 1.0
     """Cost of a landmark that a placement contradicts: a wrong place of a leg has scored 2.4 more than the right one, a
     place by three landmarks with left for right 3.3 less (research/parts.md)."""
     landmark_cost_of_two: float = 3.0
-    """That between two parts, whose wrong placements have scored up to 3.9 more."""
+    """The same between two parts, whose wrong placements have scored up to 3.9 more."""
     min_opening: float = 0.01
     """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
     max_hole_opening: float = 0.2
-    """Opening up to which a shape that is not surely placed as a part may be a whole one with holes."""
+    """Opening up to which a shape may be a whole one with holes, unless its match as a part is "sure"."""
     shrunk_scale: float = 0.26
-    """Scale up to which a placement without landmarks has shrunk as far as it may, mostly into nothing alike."""
+    """Scale up to which a placement without landmarks has shrunk to the least scale, and is mostly wrong."""
     opening_ratio: float = 3.0
-    """How many times the other's opening that of a part must be."""
+    """Least ratio of the opening of a part to that of the other shape."""
 
 
 @dataclass(frozen=True)
 class Scoring:
-    """All numbers that maps are judged by. Distances are mean distances in √area unless said otherwise.
+    """All numbers that maps are scored by. Distances are mean distances in √area unless stated otherwise.
 
     Weights were chosen on pairs of `FAUST_r`, `SHREC19_r` and generated shapes (research/score.md).
     """
@@ -141,28 +146,28 @@ class Scoring:
     w_shot: float = 60.0
     """Weight of the SHOT error after registration, where it is known; right and wrong maps differ by 0.02 and more."""
     w_landmark: float = 2.0
-    """Cost of a landmark whose image is simply wrong."""
+    """Cost of a landmark with an error of :attr:`max_landmark_error` or more."""
     w_torn: float = 25.0
-    """Cost where all of the target is torn. With less than 20 a torn map of a dog and a cat stays, with more than 35
-    front and back of a gorilla may change."""
+    """Cost where all of the target is torn. With less than 20 a torn map of a dog and a cat is kept, with more than 35
+    front and back of a gorilla may be exchanged."""
     moved_distance: float = 0.15
-    """Distance from which an alternative takes a vertex elsewhere."""
+    """Distance from which an alternative maps a vertex elsewhere."""
     torn_confidence: float = 0.5
     """Local confidence below which a vertex counts as torn."""
     max_torn_area: float = 0.04
-    """Share of torn area from which alternatives are finished too, and a region is called doubtful."""
+    """Share of torn area from which alternatives are refined and registered too, and a region is called doubtful."""
 
     local_radius: float = 0.2
-    """Distance up to which points are neighbours whose distance a good map keeps."""
+    """Distance up to which points are neighbours, whose distance a good map preserves."""
     extremity_radius: float = 0.3
     """Distance from an extremity within which descriptors count once more."""
     min_heat_variance: float = 0.02
     """Variance of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
 
     max_landmark_error: float = 0.3
-    """Distance of a landmark's image from which it is simply wrong, and the landmark may be rejected."""
+    """Error of a landmark, in √area, from which it may be rejected and its cost no longer grows."""
     max_isometric_landmark_error: float = 0.12
-    """The same where the map nearly keeps distances; right ones miss by 0.11 at most (research/landmarks.md)."""
+    """The error to reject one between near-isometric shapes; right ones have 0.11 at most (research/landmarks.md)."""
     min_kept_landmarks: float = 0.6
     """Share of landmarks that a map must keep to before the others are rejected."""
     landmark_radius: float = 0.2
@@ -173,51 +178,51 @@ class Scoring:
     """Width of that logistic function."""
 
     rough_distance: float = 0.04
-    """Distance from which rough maps differ."""
+    """Distance from which coarse maps are distinct."""
     distinct_distance: float = 0.08
-    """Distance from which finished maps differ."""
+    """Distance from which candidates are distinct."""
     duplicate_distance: float = 0.005
-    """Distance up to which maps near the best are registered too: of two legs that touch, it is as far from one to the
-    other."""
+    """Distance from which maps near the best are registered too: exchanged feet that touch make this difference."""
     twin_distance: float = 0.03
-    """Distance up to which two registered maps are one: a limb that lies elsewhere makes 0.05."""
+    """Distance up to which two repaired candidates are the same: a limb that lies elsewhere makes 0.05."""
     early_exit_score: float = -7.0
-    """:attr:`Quality.score` of a rough map from which fits and perturbations are left out: people have −4 to −10,
-    animals of different kinds −8.5 and less."""
+    """:attr:`Quality.score` of a coarse map from which kernel fits and perturbations are left out: people have −4 to
+    −10, animals of different kinds −8.5 and less."""
     repair_score: float = -7.5
     """:attr:`Quality.score` below which candidates are repaired by registration."""
     non_isometric_score: float = -8.0
     """:attr:`Quality.score` below which the high functions of two shapes do not correspond."""
     clear_margin: float = 0.3
-    """Margin from which an alternative without descriptors or a mirror image comes first; :attr:`Quality.score` by
-    which a map after a symmetry of the shape is behind at most: octopuses and stars have 0.2."""
+    """Margin from which a candidate without descriptors comes first, or a map to the mirror image with the setting
+    "either"; also the largest difference in :attr:`Quality.score` to a map after a symmetry of the shape: octopuses and
+    stars have 0.2."""
     mirror_margin: float = 5.0
-    """Margin from which a map to the mirror image comes first unasked; bones have 10, other maps none."""
+    """Margin from which a map to the mirror image comes first with the setting "auto"; bones have 10."""
     mirror_gain: float = 1.0
-    """Margin from which a map to the mirror image is registered and, if it keeps it, makes the other ambiguous."""
+    """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011
-    """Deformation energy below which shapes are congruent; the least that is measured is 0.01."""
+    """Deformation energy below which shapes are congruent; values below 0.01 are raised to it."""
     excess_deformation: float = 0.55
-    """Excess deformation (:func:`excess_deformation`) from which a mirror image is tried."""
+    """Excess deformation (:func:`excess_deformation`) from which maps to the mirror image are tried."""
     max_behind: float = 3.0
     """Margin behind which a candidate is not registered."""
     shot_margin: float = 2.5
-    """Margin of the first two candidates below which their SHOT errors are compared, and up to which a map with two
-    limbs exchanged or to the mirror image casts a doubt."""
+    """Margin of the first two candidates below which their SHOT errors are compared; also the margin below which a map
+    with two limbs exchanged or to the mirror image casts a doubt."""
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
     repairable_margin: float = 6.0
     """Margin behind which a candidate is not repaired: repairs have gained up to 10, and decide between front and back
     (research/subtraction.md)."""
     repair_lag: float = 1.5
-    """:attr:`Quality.score` behind the best after one round of repairs from which one is given up: to the end such end
-    4 or more behind (research/speed.md)."""
+    """Difference in :attr:`Quality.score` to the best, after one round of repairs, from which a repair is given up:
+    after all rounds the difference would be 4 or more (research/speed.md)."""
     hopeless_margin: float = 5.0
     """Margin behind which a repaired candidate loses whatever its SHOT error."""
     min_orientation: float = -0.2
     """:attr:`Quality.orientation` below which a map turns the surface inside out."""
     same_map: float = 0.1
-    """Difference ``‖C − C'‖² / k`` below which two maps of a collection are one."""
+    """Difference ``‖C − C'‖² / k`` below which two maps of a collection are the same."""
 
     calibration: Calibration = Calibration()
     part: PartScoring = PartScoring()
@@ -231,19 +236,19 @@ SCORE = Scoring()
 class Quality:
     """Measures of one map on samples; made by :func:`kfmaps.matching.quality.map_quality`."""
 
-    # From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
-    # transferred, with those of the target (Ren et al. 2018). 0 for point clouds.
+    # Correlation of the source's transferred orientation operators with those of the target (Ren et al. 2018), from 1,
+    # preserved everywhere, to -1, reversed everywhere. 0 for point clouds.
     orientation: float
-    distortion: float  # Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
-    # The same for points closer than :attr:`Scoring.local_radius`, so that tears count, wherever they are.
+    distortion: float  # mean absolute change of geodesic distances, divided by the mean distance; 0 for an isometry
+    # The same for points closer than :attr:`Scoring.local_radius`, which shows tears.
     local_distortion: float
     # Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1; mean of
-    # both directions. Less where the shapes have hardly any features.
+    # both directions. Smaller where the shapes have hardly any features.
     descriptors: float
-    heat: float  # the same for the logarithm of the heat kernel signature, which knows thick from thin
-    coverage: float  # share of the area that is the image of something, the smaller of both directions
-    laplacian: float  # ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map of constants alone
-    # ``descriptors`` of points near extremities alone; no part of :attr:`score`. 0 where there are none.
+    heat: float  # the same for the logarithm of the heat kernel signature, which distinguishes thick from thin
+    coverage: float  # share of the area that samples are mapped to, the smaller of both directions
+    laplacian: float  # ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as for unrelated shapes, for a map of constants alone
+    # ``descriptors`` of points near extremities alone, which does not count in :attr:`score`. 0 without extremities.
     extremity_descriptor_error: float = 0.0
 
     @property
@@ -254,24 +259,24 @@ class Quality:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """One refined map on the samples of a pair."""
+    """One refined map on the samples of a pair, with its evidence."""
 
-    name: str  # where it came from
+    name: str  # of its initial map
     functional_map: np.ndarray  # (k, k)
     points: np.ndarray  # (q_t,): a source sample for each target sample
     quality: Quality
-    uses_descriptors: bool = True  # a map that was refined without descriptors is only an alternative
-    # (l,): distance of each landmark's image from where it belongs, in √area.
+    uses_descriptors: bool = True  # whether descriptors took part in its refinement
+    # (l,): distance of each landmark's image from the landmark of the other shape, in √area.
     landmark_errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    # See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. The latter two are over those of a
-    # usual or of the best candidate.
+    # See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. Strain and SHOT error are
+    # differences from those of a usual or of the best candidate.
     deformation_energy: float | None = None
     strain: float | None = None
     shot_error: float | None = None
     # (n_s, 3): the source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
     registered_vertices: np.ndarray | None = None
     swapped: bool = False
-    # The kernel fit that it began with; ``None`` where it began with signs, extremities or another candidate.
+    # The kernel fit that it started from; ``None`` where it started from signs, extremities or another candidate.
     fit: Fit | None = None
 
     @property
@@ -296,16 +301,16 @@ class PartEvidence:
     """Measures of one placement of a part."""
 
     consistency: float  # of all samples with their neighbours, 0 to 1
-    # Mean logarithm of the share of the whole's samples that resemble a sample more than its place does: 0 and less.
+    # Mean logarithm of the share of the whole's samples that are more similar to a sample than its place: 0 and less.
     similarity_rank: float
     deformation_energy: float = math.inf  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
     gap: float = 0.0
     flipped_area: float = 0.0
     # Of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
-    # Of the scale of a small part against that of its file: absolute value of the logarithm of the ratio.
+    # Absolute logarithm of the ratio of the scale of a small part to that of its file.
     scale_change: float = 0.0
-    landmark_cost: float = 0.0  # of the landmarks that are off by more than :attr:`PartScoring.max_landmark_error`
+    landmark_cost: float = 0.0  # of landmarks with errors above :attr:`PartScoring.max_landmark_error`
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
@@ -322,39 +327,40 @@ def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
 
 
 def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
-    """Return the score of a candidate: its map, extremities, registration and landmarks, each of bounded cost.
+    """Return the score of a candidate from its map, extremities, registration and landmarks, each of bounded cost.
 
-    Rounded to nine digits, so that what is equal but for rounding errors is equal.
+    It is rounded to nine digits, so that scores are equal that differ by rounding errors.
     """
-    deformed = 0.0
+    deformation = 0.0
     if candidate.deformation_energy is not None:
-        deformed = -numbers.w_deformation * math.log(candidate.deformation_energy / numbers.usual_deformation)
-    strained = -numbers.w_strain * (candidate.strain or 0.0)
-    differs = -numbers.w_shot * (candidate.shot_error or 0.0)
+        deformation = -numbers.w_deformation * math.log(candidate.deformation_energy / numbers.usual_deformation)
+    strain = -numbers.w_strain * (candidate.strain or 0.0)
+    shot = -numbers.w_shot * (candidate.shot_error or 0.0)
     extremities = numbers.w_extremities * candidate.quality.extremity_descriptor_error
-    evidence = quality_score(candidate.quality, numbers) - extremities + deformed + strained + differs
+    evidence = quality_score(candidate.quality, numbers) - extremities + deformation + strain + shot
     missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
     return round(evidence - numbers.w_landmark * missed, 9)
 
 
 def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) -> float:
-    """Return the score of a finished map: that of its candidate less the cost of the share of torn area."""
+    """Return the score of a map on all vertices: the ``score`` of its candidate less the cost of its torn area."""
     return score - numbers.w_torn * (torn_area or 0.0)
 
 
 def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
-    """Return the part of :func:`part_score` that is known before registration."""
+    """Return the part of :func:`part_score` that needs no registration."""
     return numbers.w_consistency * evidence.consistency - numbers.w_similarity_rank * evidence.similarity_rank
 
 
 def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
     """Return the score of a placement of a part, higher is better."""
-    fits = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap - numbers.w_flipped * evidence.flipped_area
-    fits += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
-    fits -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
-    fits -= evidence.landmark_cost
-    stiff = -math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
-    return fits + numbers.w_deformation * stiff
+    score = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap
+    score -= numbers.w_flipped * evidence.flipped_area
+    score += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
+    score -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
+    score -= evidence.landmark_cost
+    deformation = math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
+    return score + numbers.w_deformation * -deformation
 
 
 def part_landmark_cost(errors: np.ndarray, two: bool) -> float:
@@ -367,18 +373,18 @@ def part_landmark_cost(errors: np.ndarray, two: bool) -> float:
 
 
 def excess_deformation(score: float, deformation_energy: float, numbers: Calibration = SCORE.calibration) -> float:
-    """Return by how much the logarithm of the deformation energy exceeds that of right maps of such a ``score``."""
+    """Return the excess of the logarithm of the deformation energy over that of right maps with this ``score``."""
     return math.log(deformation_energy) - numbers.usual_log_deformation - numbers.log_deformation_per_score * score
 
 
 def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarray, numbers: Scoring = SCORE) -> float:
-    """Return how far landmarks support a map, from 0 to 1.
+    """Return how well landmarks support a map, from 0 to 1.
 
-    The squared share of the source that lies within :attr:`Scoring.landmark_radius` of a landmark, times a logistic
-    function of the mean error. Few landmarks, or many in one place, tell little.
+    It is the squared share of the source within :attr:`Scoring.landmark_radius` of a landmark, times a logistic
+    function of the mean error. So few landmarks, or many in one place, support it little.
 
-    ``errors (l,)``: of the landmarks, in √area, by a map in which they had no say; ``distances (l, q_s)``: from each of
-    the source's landmarks to its samples; ``areas (q_s,)``: of these samples.
+    ``errors (l,)``: of the landmarks, in √area, by a map that was refined without them; ``distances (l, q_s)``: from
+    each of the source's landmarks to its samples; ``areas (q_s,)``: of these samples.
     """
     if len(errors) == 0:
         return 0.0
@@ -404,7 +410,7 @@ def max_landmark_error(score: float) -> float:
 
 
 def rejected_landmarks(errors: np.ndarray, limit: float) -> np.ndarray:
-    """Return which landmarks ``(l,)`` contradict a map that keeps to most of them; none of fewer than three."""
+    """Return which landmarks ``(l,)`` contradict a map that agrees with most of them; none of fewer than three."""
     wrong = errors > limit
     few = len(errors) < 3 or (~wrong).mean() < SCORE.min_kept_landmarks
     return np.zeros(len(errors), dtype=bool) if few else wrong
@@ -419,10 +425,9 @@ def probability(
 ) -> float:
     """Return the probability that a map is right.
 
-    ``score``: :attr:`Quality.score` of a whole shape, :func:`part_score` of a part; ``margin``: by how much the best
-    different map is behind; where both are equal each is as likely; ``deformation_energy``: where it exceeds that of
-    right maps much, something that the score does not see is wrong; ``support``: :func:`landmark_support`, which takes
-    away doubt.
+    ``score``: :attr:`Quality.score` of whole shapes, :func:`part_score` of a part; ``margin``: over the best distinct
+    candidate, with which it is equally likely at a margin of 0; ``deformation_energy``: lowers the probability where it
+    exceeds that of right maps by far; ``support``: :func:`landmark_support`, which raises the probability.
     """
     fits = float(expit(numbers.slope * (score - numbers.middle)))
     if deformation_energy is not None:
@@ -441,9 +446,8 @@ def verdict(
 ) -> str:
     """Return "sure", "likely" or "unlikely" by the :func:`probability`, or "ambiguous".
 
-    "ambiguous" is a map that would be called more if no other map were as good; at the greatest margin none is.
+    A map is "ambiguous" if it would have a better verdict without another candidate that is nearly as good.
     """
-
     margins = margin, math.inf if margin < numbers.max_margin else margin
     word, alone = (
         probability_word(probability(score, one, deformation_energy, support, numbers), numbers) for one in margins
@@ -457,10 +461,9 @@ def probability_word(chance: float, numbers: Calibration = SCORE.calibration) ->
 
 
 def lower_by_torn_area(chance: float | None, word: str, torn_area: float) -> tuple[float | None, str]:
-    """Return the probability and the verdict of a finished map, lower by the share of its area that is torn.
+    """Return the probability and the verdict of a map on all vertices, lowered by its torn share of the area.
 
-    A quadruped of which 13 % keep distances nearby badly, ears and throat, was off by 9 and "sure"; right maps that are
-    "sure" have 5 % at most (research/verdict.md).
+    Right maps that are "sure" have 5 % at most (research/verdict.md).
     """
     if chance is None:
         return chance, word
@@ -484,7 +487,7 @@ def by_score(found: Iterable[S]) -> list[S]:
 
 
 def select_distinct(order: Iterable[T], differ: Callable[[T, T], bool], most: int | None = None) -> list[T]:
-    """Return the first of ``order``, then the first that differs from it, and so on: at most ``most``."""
+    """Return the first of ``order``, then the first that differs from all before, and so on: at most ``most``."""
     kept: list[T] = []
     for one in order:
         if len(kept) == most:
