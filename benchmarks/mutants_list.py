@@ -341,7 +341,7 @@ MUTANTS = tuple(
         ),
         (
             "deformation = -numbers.w_deformation",
-            "deformed = numbers.w_deformation",
+            "deformation = numbers.w_deformation",
             "test_extremities -k likelier",
         ),
         (

@@ -218,7 +218,7 @@ def test_written_settings_say_what_they_mean() -> None:
         if path.partition(".")[0] in ("basis", "descriptors", "nystrom", "weights"):
             assert one.help in text
     assert 'search = "none"' in text
-    assert "the search among several maps" in text
+    assert "search among many candidate maps" in text
     with pytest.raises(InvalidInput, match="kernel: expected a record"):
         settings_text(Config(kernel=lambda X, Y: X @ Y.T))
 

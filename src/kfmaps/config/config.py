@@ -21,24 +21,24 @@ from kfmaps.registration.nonrigid_icp import NonRigid
 
 @settings_record
 class Config:
-    """Settings of a match. ``Config()`` is what :func:`kfmaps.match` uses; :meth:`single_fit` makes no search.
+    """Settings of a match. ``Config()`` has those that :func:`kfmaps.match` uses; :meth:`single_fit` makes no search.
 
-    ``kernel`` is a record of :mod:`kfmaps.kernels` or any callable that gives (n, m) values for (n, d) and (m, d)
-    arrays; ``refinement`` and ``registration`` too may be callables of the user's own. Each of ``terms`` is called with
-    both shapes and returns a term (:class:`kfmaps.matching.assemble.TermFactory`).
+    ``kernel`` is a record of :mod:`kfmaps.kernels` or any callable that returns (n, m) values for (n, d) and (m, d)
+    arrays; ``refinement`` and ``registration`` may be callables too. Each of ``terms`` is called with both shapes and
+    returns a term (:class:`kfmaps.matching.assemble.TermFactory`).
     """
 
     basis: BasisConfig = setting(BasisConfig, "eigenfunctions of the functional map")
-    descriptors: DescriptorConfig = setting(DescriptorConfig, "what is preserved")
+    descriptors: DescriptorConfig = setting(DescriptorConfig, "descriptors, which the map preserves")
     kernel: KernelLike = setting(Gaussian, "the kernel", option="--kernel")
-    bandwidth_scale: float = setting(0.3, "sharpness: automatic gamma times the typical squared distance", above=0)
+    bandwidth_scale: float = setting(0.3, "sharpness: automatic gamma times the median squared distance", above=0)
     nystrom: NystromConfig = setting(NystromConfig, "the approximation of the kernel")
     full_kernel: bool = setting(False, "the exact kernel in row blocks (equations 8 and 10 to 12), no Nyström; slow")
     weights: Weights = setting(Weights, "weights of the terms")
     terms: tuple[Any, ...] = setting((), "further terms, callables (source, target) -> term", python_only=True)
-    formulation: Formulation = setting(Formulation, "what is asked beside least squares")
+    formulation: Formulation = setting(Formulation, "constraints and penalties beside least squares")
     operator_rtol: float = setting(
-        1e-3, "part of the multiplication operators' squared norm that may be left out", low=0, below=1
+        1e-3, "share of the squared norm of the multiplication operators that is truncated", low=0, below=1
     )
     solver: Solver = setting(CG, "conjugate gradients, or dense for small bases")
     preconditioner: Preconditioner = setting("sylvester", "preconditioner of conjugate gradients")
@@ -47,11 +47,13 @@ class Config:
     )
     refinement: Refinement | None = setting(
         lambda: ZoomOut(start=50, stop=100, step=20, samples=3500, descriptor_weight=36.0),
-        "what improves the raw map after the fit",
+        "refinement of the map after the fit",
     )
-    registration: NonRigid | Callable[..., Any] | None = setting(NonRigid, "the non-rigid fit at the finish")
-    search: Search | None = setting(Search, "the search among several maps; none makes one fit")
-    partial: Partial = setting(Partial, "what of the shapes may be missing")
+    registration: NonRigid | Callable[..., Any] | None = setting(
+        NonRigid, "non-rigid registration after the refinement"
+    )
+    search: Search | None = setting(Search, "search among many candidate maps; none: one fit")
+    partial: Partial = setting(Partial, "matching of parts")
     device: str = setting("cpu", "where the fit is computed: cpu, or a PyTorch device such as cuda", option="--device")
     threads: int | None = setting(None, "Python threads; none: every core", low=1, option="--threads")
 
@@ -70,7 +72,7 @@ class Config:
 
     @property
     def n_eigenfunctions(self) -> int:
-        """How many eigenfunctions each shape needs: the most that map, descriptors or refinement ask for."""
+        """Number of eigenfunctions of each shape: the most that map, descriptors or refinement need."""
         spectral = self.descriptors.signature != "none" or self.descriptors.landmark_descriptor != "none"
         refined = getattr(self.refinement, "n_eigenfunctions", 0)
         return max(self.basis.n_eigenfunctions, self.descriptors.n_eigenfunctions if spectral else 0, refined)
@@ -90,9 +92,9 @@ class Config:
         """The paper's section 7: k = 100, 100 descriptors, a Gaussian kernel, rank 400, α = 1, ten steps of plain
         conjugate gradients, no refinement.
 
-        Each descriptor has a maximum of 1, as in section 7.1. That is the reading under which the paper's Nyström
-        errors come out, but the γ = 500 of figure 6 is then far too sharp: the paper does not give the scale that it
-        belongs to. So γ is found as there, by a grid search, on the first two people of FAUST (docs/experiments.md).
+        Each descriptor has a maximum of 1, as in section 7.1. With it the paper's Nyström errors are reproduced, but
+        the γ = 500 of figure 6 is far too large: the paper does not give its scale. So γ comes from a grid search on
+        the first two people of FAUST, as in the paper (docs/experiments.md).
         """
         single = cls.single_fit()
         return replace(
@@ -124,9 +126,9 @@ class Config:
     def obcs12(cls) -> Config:
         """Ovsjanikov et al. (2012) in the framework of NO17: no commutativity with multiplication by descriptors.
 
-        Weights are those of that framework's demonstration, 0.1 and 1e-3, the second for Laplacian weights divided by
-        their squared Frobenius norm, which makes it about 1e-12 here: next to no regularisation. With α = 1 the
-        method is better than this.
+        The weights are those of that framework's demonstration, 0.1 and 1e-3. The second is for Laplacian weights
+        divided by their squared Frobenius norm, so it is about 1e-12 here: hardly any regularisation. With α = 1 the
+        method has smaller errors.
         """
         return replace(cls.no17(), weights=Weights(descriptors=0.1, commutativity=0.0, laplacian=1e-12))
 
@@ -154,10 +156,10 @@ FORMULATIONS = {
     "gasparetto17": Formulation(transport_weight=0.1),  # Spatial maps
     "ren19": Formulation(mask="resolvent", mask_power=0.5),  # Structured regularization
 }
-"""What published methods ask of the map; docs/formulations.md says it in words."""
+"""Formulations of published methods; docs/formulations.md describes them."""
 
 KINDS: _records.Kinds = {KernelLike: KERNELS, Refinement: (ZoomOut, ICP)}
-"""The records that a settings file can name where any callable will do."""
+"""Records that a settings file can name for fields that take any callable."""
 
 RECORDS = {kind.__name__: kind for kind in (*KERNELS, ZoomOut, ICP, *get_args(Solver), NonRigid, Search)}
 """Records that a settings file names by ``kind``, since a field may hold one of several."""
@@ -166,12 +168,12 @@ RECORDS = {kind.__name__: kind for kind in (*KERNELS, ZoomOut, ICP, *get_args(So
 def as_dict(value: Any) -> Any:
     """Return a configuration as nested dictionaries of plain values, fit for JSON and TOML.
 
-    Records of which a field may hold several kinds carry theirs under ``kind``. A kernel or refinement that is a
-    callable of the user's own becomes ``{"kind": "callable", "name": …}``, which :func:`from_dict` refuses.
+    A record in a field that takes several kinds has its name under ``kind``. A kernel or refinement that is another
+    callable becomes ``{"kind": "callable", "name": …}``, which :func:`from_dict` refuses.
     """
     return _records.record_as_dict(value, RECORDS, describe_kernel)
 
 
 def from_dict(values: JsonObject, base: Config | None = None) -> Config:
-    """Return ``base``, by default ``Config()``, with what ``values`` names replaced; the inverse of :func:`as_dict`."""
+    """Return ``base``, by default ``Config()``, with the settings in ``values``; the inverse of :func:`as_dict`."""
     return _records.update(base or Config(), values, Config(), KINDS)

@@ -1,4 +1,4 @@
-"""The parts of a configuration that have no code of their own."""
+"""Sections of the configuration."""
 
 from __future__ import annotations
 
@@ -25,12 +25,11 @@ class BasisConfig:
 
 @settings_record
 class DescriptorConfig:
-    """What is preserved.
+    """Descriptors, which the map preserves.
 
-    Energies are either spread evenly over the numbers wanted or, as the framework of NO17 does ("every-nth"), there
-    are 200 for the signature and for each landmark in one list, from which every n-th is taken. SHOT is the descriptor
-    of Tombari et al. (2010). Normalisations: see :func:`kfmaps.descriptors.spectral.normalize`. ``extra`` are the
-    user's own (:class:`kfmaps.shape.Descriptor`).
+    Energies are either spread evenly or, as in the framework of NO17 ("every-nth"), every n-th of a list with 200 for
+    the signature and for each landmark. SHOT is the descriptor of Tombari et al. (2010). Normalisations: see
+    :func:`kfmaps.descriptors.spectral.normalize`. ``extra`` are further ones (:class:`kfmaps.shape.Descriptor`).
     """
 
     n_spectral: int = setting(100, "spectral descriptors in all, shared out between signature and landmarks", low=1)
@@ -77,13 +76,13 @@ class Weights:
 
 @settings_record
 class Formulation:
-    """What is asked of the map beside least squares; by default nothing. See docs/formulations.md.
+    """Constraints and penalties of the map beside least squares; by default there are none. See docs/formulations.md.
 
     Inverse, adjoint, sparsity and transport weights are in units of the mean diagonal of the energy's operator.
     Orthogonal maps keep areas (:mod:`kfmaps.fmap.constraints`); losses are those of :mod:`kfmaps.fmap.losses`.
     """
 
-    constraint: Constraint = setting("none", "what the map must be")
+    constraint: Constraint = setting("none", "constraint on the map")
     bidirectional: bool = setting(False, "fit both maps at once, tied to each other")
     inverse_weight: float = setting(0.1, "weight of each map being the other's inverse", low=0)
     adjoint_weight: float = setting(0.1, "weight of each map being the other's adjoint", low=0)
@@ -95,15 +94,13 @@ class Formulation:
     sparsity: float = setting(0.0, "weight of the entries' absolute values, growing away from the diagonal", low=0)
     mask: Mask = setting("squared", "how Laplacian commutativity weighs entries")
     mask_power: float = setting(0.5, "power of the Laplacian in the resolvent", above=0)
-    coupled_bases: bool = setting(False, "ask for Laplacian commutativity and sparsity in coupled bases")
+    coupled_bases: bool = setting(False, "Laplacian commutativity and sparsity in coupled bases")
     coupling_weight: float = setting(
         1.0, "weight of the map against diagonal Laplacians in the choice of coupled bases", above=0
     )
     max_outer_iter: int = setting(20, "most iterations of reweighting and of both directions in turn", low=1)
-    transport_weight: float = setting(
-        0.0, "weight of agreement with the soft spatial map that moves the whole area of both shapes", low=0
-    )
-    transport_blur: float = setting(0.3, "softness of that map, in costs of a nearest point", above=0)
+    transport_weight: float = setting(0.0, "weight of agreement with an optimal transport between both shapes", low=0)
+    transport_blur: float = setting(0.3, "entropic blur of that transport, in costs of a nearest point", above=0)
 
     def __post_init__(self) -> None:
         check_record(self)
@@ -117,45 +114,45 @@ class Formulation:
 
     @property
     def weighs_data(self) -> bool:
-        """Whether landmarks or descriptors are weighed before the kernel."""
+        """Whether a robust loss weighs landmarks or descriptors, before the kernel."""
         return self.loss != "squared" and self.loss_group != "feature"
 
     @property
     def weighs_features(self) -> bool:
-        """Whether features of the kernel are weighed."""
+        """Whether a robust loss weighs features of the kernel."""
         return self.loss != "squared" and self.loss_group == "feature"
 
 
 @settings_record
 class Search:
-    """How to find the map among many; see :mod:`kfmaps.matching.search`.
+    """The search among many candidate maps; see :mod:`kfmaps.matching.search`.
 
-    ``orientation``: "reversing" is a map to a mirror image. "auto" takes one only where a map that preserves
-    orientation would have to bend the source too much and the reversing one does not; "either" takes the one that fits
-    clearly better: for bones, shoes or hands, which are not their own mirror images.
+    ``orientation``: a "reversing" map is one to the mirror image. "auto" takes it only where a map that preserves
+    orientation would deform the source too much and the reversing one does not. "either" takes the one that is clearly
+    better: for bones, shoes or hands, which are not their own mirror images.
     """
 
     candidates: int = setting(6, "small kernel fits, each refined from three starts; 0: no kernel", low=0)
     orientation: Literal["auto", "preserving", "reversing", "either"] = setting(
         "auto", "whether the map preserves orientation or is one to a mirror image", option="--orientation"
     )
-    n_alternatives: int = setting(3, "distinct other maps that are kept at most", low=0)
-    n_sign_functions: int = setting(5, "low functions whose signs are tried, 2^n maps", low=0, high=10)
-    match_extremities: bool = setting(True, "pair the tips of limbs in all likely ways, for unlike proportions")
+    n_alternatives: int = setting(3, "most distinct other maps that are returned", low=0)
+    n_sign_functions: int = setting(5, "low functions of which all 2^n signs are tried", low=0, high=10)
+    match_extremities: bool = setting(True, "match extremities, for unlike proportions")
 
 
 @settings_record
 class Partial:
-    """What of the shapes may be missing; see :mod:`kfmaps.matching.partial`.
+    """Matching of parts; see :mod:`kfmaps.matching.partial`.
 
-    ``part``: "both" means that each has something that the other lacks; "auto" compares their boundaries and, where
-    these differ, how one fits into the other. ``scale``: "auto" is "fixed" for two parts of about the same size.
+    ``part``: with "both" each shape has something that the other lacks; "auto" compares their boundaries and, where
+    these differ, tries to place one on the other. ``scale``: "auto" is "fixed" for two parts of about the same size.
     """
 
     part: Literal["auto", "none", "source", "target", "both"] = setting(
         "auto", "which shape may be a part of the other", option="--partial"
     )
     scale: Literal["auto", "free", "fixed"] = setting("auto", "fixed: both shapes are in the same units")
-    samples: int = setting(300, "points of the part that are matched first", low=20)
-    whole_samples: int = setting(1000, "points of the whole that they are matched with", low=20)
-    candidates: int = setting(3, "scales of the part that are followed up", low=1)
+    samples: int = setting(300, "samples of the part", low=20)
+    whole_samples: int = setting(1000, "samples of the whole", low=20)
+    candidates: int = setting(3, "scales of the part that are refined", low=1)
