@@ -1,4 +1,4 @@
-"""What a fit would take, before it is asked for."""
+"""Check the memory that a fit needs before it is computed."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from kfmaps.config import Config
 def check_match_memory(config: Config, n_s: int, n_t: int, landmarks: int = 0) -> None:
     """Refuse numbers of descriptors or samples whose arrays do not fit into the machine's memory.
 
-    Counted are only the arrays that cannot be avoided, so that nothing is refused which could be done.
-
-    ``n_s`` and ``n_t``: vertices of source and target; ``landmarks``: each makes one descriptor or more.
+    Only arrays that cannot be avoided are counted. ``n_s`` and ``n_t``: vertices of source and target; ``landmarks``:
+    number of landmarks, each of which makes at least one descriptor.
     """
     most = config.fit_samples or max(n_s, n_t)
     rows = min(n_s, most) + min(n_t, most)

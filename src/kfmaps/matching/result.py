@@ -42,16 +42,16 @@ class NotKnown(InvalidInput, AttributeError):
 
 
 def _lacking() -> Any:
-    """Default of a field that a match may lack, of open type, so that the fields of a fresh match need no checks."""
+    """Return the default of a field that a match may lack, typed so that fields of a fresh match need no checks."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Match:
-    """A map between two shapes with all that is known of it.
+    """A map between two shapes with its evidence.
 
-    :func:`kfmaps.match`, :func:`kfmaps.load_map` and collections return it. A file does not hold the meshes and the
-    bases, and a list of vertices holds ``target_to_source`` alone: asking a loaded match for another field is an
-    :class:`InvalidInput` that says so, and ``hasattr(match, "functional_map")`` tells beforehand.
+    :func:`kfmaps.match`, :func:`kfmaps.load_map` and collections return it. A file has no meshes and no bases, and a
+    list of vertices has ``target_to_source`` alone. Access to a missing field raises :class:`InvalidInput`;
+    ``hasattr(match, "functional_map")`` tests for one.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Match:
     functional_map : (k_t, k_s) float64
         Carries coefficients of functions from source to target, after refinement.
     source, target : Mesh
-        The shapes as they were handed in; those of a :class:`Shape` have unit area.
+        The shapes as they were given; those of a :class:`Shape` have unit area.
     basis_source, basis_target : Basis
         The functions that ``functional_map`` is written in, (n_s, k_s) and (n_t, k_t), of the shapes at unit area.
     eigenvalues_source, eigenvalues_target : (k_s,), (k_t,) float64
