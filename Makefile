@@ -8,8 +8,8 @@ export OPENBLAS_NUM_THREADS ?= 1
 export OMP_NUM_THREADS ?= 1
 
 # What CI runs twice more, with the last bits changed as other processors would: see tests/shake.py.
-CORE := automatic clouds confidence device eigensolver energy formulas formulas_match formulations geodesics descriptor_guidance cleaning \
-	kernels collection shape_differences collection_maps maps nystrom orientation pipeline preconditioners rounding large_shapes search shot solvers spectrum topology
+CORE := automatic clouds device eigensolver energy formulas formulas_match formulations descriptor_guidance cleaning \
+	kernels collection shape_differences collection_maps maps nystrom orientation pipeline rounding large_shapes search shot spectrum
 
 .PHONY: demo test shake lint mutants docs experiments dist image web clean
 

@@ -166,7 +166,7 @@ MUTANTS = tuple(
             "reason_to_stop(residuals, solver.rtol, limit)",
             f"{FORMULAS} -k units",
         ),
-        ("((U_t.T @ r @ U_s) / safe)", "((U_t.T @ r @ U_s) * safe)", "test_preconditioners"),
+        ("((U_t.T @ r @ U_s) / safe)", "((U_t.T @ r @ U_s) * safe)", "test_energy"),
         ("return sum(weight * term.constant()", "return sum(term.constant()", "test_energy -k laws"),
         # functional: from maps to points and back
         (
@@ -194,7 +194,7 @@ MUTANTS = tuple(
         ("scores -= 0.5 * np.einsum", "scores -= 0.4 * np.einsum", f"{FORMULAS} -k cells"),
         ("_RIDGE = 0.1", "_RIDGE = 0.0", f"{FORMULAS} -k damping", "fmap/zoomout"),
         ("return (1 + ridge) * xp.linalg.solve", "return xp.linalg.solve", f"{FORMULAS} -k damping"),
-        ("C = fit_functional_map(points, source, target, self.stop)", "pass", f"{FORMULAS} -k last_step"),
+        ("C = fit_functional_map(points, source, target, self.stop)", "pass", f"{FORMULAS} -k all_points"),
         ("C = C[:first, :first]", "C = C.T[:first, :first]", f"{FORMULAS} -k low_part"),
         (
             "np.sqrt(2 * sum((side**2).sum() for side in components) / count)",
@@ -256,7 +256,7 @@ MUTANTS = tuple(
             f"{MATCH} -k coverage",
         ),
         ("np.flatnonzero(distances <= max(SCORE", "np.flatnonzero(distances >= max(SCORE", "test_automatic -k short"),
-        ("max(one.variance + other.variance, 2 * flat)", "max(one.variance, 2 * flat)", f"{MATCH} -k random"),
+        ("max(one.variance + other.variance, 2 * flat)", "max(one.variance, 2 * flat)", "test_automatic -k says"),
         (
             "functions[:, :k_s] @ np.asarray(C.T,",
             "functions[:, :k_s] @ np.asarray(C,",
@@ -277,17 +277,17 @@ MUTANTS = tuple(
         (
             "1.0 - 0.5 * math.exp(-max(margin, 0.0) / numbers.tie)",
             "1.0 - math.exp(-max(margin, 0.0) / numbers.tie)",
-            "test_automatic -k verdict",
+            "test_score",
         ),
         (
             "numbers.slope * (score - numbers.middle)",
             "numbers.slope * (numbers.middle - score)",
-            "test_automatic -k verdict",
+            "test_score",
         ),
         (
             "math.exp(-max(margin, 0.0) / numbers.tie)",
             "math.exp(-max(margin, 0.0) * numbers.tie)",
-            f"{MATCH} -k close_behind",
+            "test_score",
         ),
         (
             'images[:, :, k] = -0.5 * np.einsum("mik,mik->mi"',
@@ -301,7 +301,7 @@ MUTANTS = tuple(
             "((source**2).sum(axis=1)[None, :]",
             "test_search -k many",
         ),
-        ("evidence - numbers.w_landmark * missed", "evidence", f"{MATCH} -k landmark"),
+        ("evidence - numbers.w_landmark * missed", "evidence", "test_score"),
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
         (
             "(along[0][i] * along[1][j] - along[1][i] * along[0][j]) / 2",
@@ -342,17 +342,17 @@ MUTANTS = tuple(
         (
             "deformation = -numbers.w_deformation",
             "deformation = numbers.w_deformation",
-            "test_extremities -k likelier",
+            "test_score",
         ),
         (
             "usual_log_deformation - numbers.log_deformation_per_score * score",
             "usual_log_deformation",
-            "test_automatic -k verdict",
+            "test_score",
         ),
         (
             "fits *= float(expit((numbers.excess_middle - excess) / numbers.excess_width))",
             "fits *= 1.0",
-            "test_automatic -k verdict",
+            "test_score",
         ),
         ("maps[:, i:, i:] = rotations", "maps[:, i:, i:] = np.eye(2)", "test_symmetries -k onto_itself"),
         ("margin < SCORE.clear_margin and", "margin < 9.0 and", "test_symmetries -k quality_alone"),
@@ -382,7 +382,7 @@ MUTANTS = tuple(
         ),
         ("noise = noise / len(pairs) + _RIDGE", "noise = _RIDGE", "test_learn -k metric_starts"),
         ("0.5 * (1 + math.cos(math.pi", "0.5 * (2 + math.cos(math.pi", "test_learn -k rate_falls"),
-        ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", f"{FORMULAS} -k losses"),
+        ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", "test_formulations -k loss_weight"),
         ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),
         ("return (d * d / (d * d + e)) ** 2", "return d * d / (d * d + e)", "test_formulations -k loss_weight"),
         (
@@ -546,14 +546,18 @@ MUTANTS = tuple(
         (
             "inner = 2.0 * np.minimum(boundary_distance",
             "inner = 9.0 + np.minimum(boundary_distance",
-            "test_parts_beam_search",
+            "test_parts_other_placements",
         ),
-        ("chosen.append(int(value.argmax()))", "chosen.append(int((value > 0).argmax()))", "test_parts_beam_search"),
-        ("for column in columns[::-1]", "for column in columns[-1:]", "test_parts_beam_search"),
-        ("+ single[:, None] + score[t]", "+ single[:, None]", "test_parts_beam_search"),
-        ("distances[states[:, s]])\n", "distances[states[:, 0]])\n", "test_parts_beam_search"),
+        (
+            "chosen.append(int(value.argmax()))",
+            "chosen.append(int((value > 0).argmax()))",
+            "test_parts_other_placements",
+        ),
+        ("for column in columns[::-1]", "for column in columns[-1:]", "test_parts_other_placements"),
+        ("+ single[:, None] + score[t]", "+ single[:, None]", "test_parts_other_placements"),
+        ("distances[states[:, s]])\n", "distances[states[:, 0]])\n", "test_parts_other_placements"),
         ("else similarity - cost", "else similarity", "test_parts_other_placements"),
-        ('return word if word == alone else "ambiguous"', "return word", "test_parts"),
+        ('return word if word == alone else "ambiguous"', "return word", "test_score"),
         (
             "if all(differ(one, other) for other in kept):\n            kept",
             "if kept or not kept:\n            kept",
@@ -639,12 +643,12 @@ MUTANTS = tuple(
         (
             "strain = -numbers.w_strain",
             "strain = numbers.w_strain",
-            "test_extremities -k likelier",
+            "test_score",
         ),
         (
             "- extremities + deformation",
             "+ extremities + deformed",
-            "test_extremities -k likelier",
+            "test_score",
         ),
         (
             "extremities.unit * extremities.distances.min(axis=0) < SCORE",
@@ -770,7 +774,7 @@ MUTANTS = tuple(
         (
             "return min(gain, without_landmark_errors(image).score",
             "return max(gain, without_landmark_errors(image).score",
-            "test_wrong_landmarks -k left_for_right",
+            "test_landmark_evidence -k left_for_right",
         ),
         (
             "return bool(np.median(errors) > 0.04)",
@@ -823,7 +827,7 @@ MUTANTS = tuple(
         (
             "local = np.log(np.maximum(arap_energy_per_vertex(energy, x)",
             "local = (np.maximum(arap_energy_per_vertex(energy, x)",
-            "test_extremities -k strain",
+            "test_extremities -k bends_least",
         ),
         (
             "rotations(energy, x)[i], energy.rest[i] - energy.rest[j])",
@@ -834,17 +838,17 @@ MUTANTS = tuple(
         (
             "default=-math.inf) >= SCORE.early_exit_score",
             "default=-math.inf) <= SCORE.early_exit_score",
-            "test_early_exit -k rivals",
+            "test_symmetries -k rivals",
         ),
         (
             "is_clear = len(pairs) == 0 and descriptors is None and has_clear_map(maps)",
             "is_clear = has_clear_map(maps)",
-            "test_early_exit -k heard",
+            "test_symmetries -k heard",
         ),
         (
             "vertices[to_points(C, sampled, target",
             "(0 * vertices)[to_points(C, sampled, target",
-            "test_early_exit -k passed_over",
+            "test_symmetries -k passed_over",
         ),
         ("eigenvalues - values) <= 1e-3 *", "eigenvalues - values) >= -1e-3 *", "test_eigensolver_loose -k too_little"),
         (
@@ -862,33 +866,33 @@ MUTANTS = tuple(
             "np.argsort(-_changes(starts, shape)[0], kind",
             "test_symmetries -k early",
         ),
-        ("coarse, weights[:_N_EARLY_WEIGHTS])", "coarse, weights)", "test_early_exit -k near_symmetries"),
+        ("coarse, weights[:_N_EARLY_WEIGHTS])", "coarse, weights)", "test_symmetries -k near_symmetries"),
         (
             "rest[np.isinf(rest)] = np.stack(detours)[np.isinf(rest)]",
             "rest[np.isinf(rest)] = 2 * np.stack(detours)[np.isinf(rest)]",
-            "test_pairwise_geodesics -k hardly",
+            "test_geodesics -k hardly",
         ),
         (
             "if len(missing):\n            distances[missing]",
             "if False:\n            distances[missing]",
-            "test_pairwise_geodesics -k forgotten",
+            "test_geodesics -k forgotten",
         ),
         # landmarks between shapes of other proportions, and what they say of a map
         (
             "np.minimum(errors, numbers.max_landmark_error).mean()",
             "errors.mean()",
-            "test_landmark_evidence -k where_they_are_missed",
+            "test_score -k landmarks_support",
         ),
         (
             "rejected = state.rejected & (state.rejected.all() | still_contradicted(",
             "rejected = state.rejected | (state.rejected.all() | still_contradicted(",
             "test_landmark_evidence -k doubted_no_longer",
         ),
-        ("return share**2 * float(", "return share * float(", "test_landmark_evidence -k far_as_they_reach"),
+        ("return share**2 * float(", "return share * float(", "test_score -k landmarks_support"),
         (
             "gain > SCORE.close_margin or not (contradicted",
             "gain > SCORE.close_margin and not (contradicted",
-            "test_wrong_landmarks -k all_landmarks",
+            "test_landmark_evidence -k all_landmarks",
         ),
         ("margins.append(0.0)", "margins.append(9.0)", "test_automatic -k without_orientation"),
         (
@@ -902,17 +906,17 @@ MUTANTS = tuple(
         (
             "share = float(areas[covered].sum() / areas.sum())",
             "share = float(covered.mean())",
-            "test_landmark_evidence -k far_as_they_reach",
+            "test_score -k landmarks_support",
         ),
         (
             "(errors, numbers.max_landmark_error).mean()",
             "(errors, numbers.max_landmark_error).max()",
-            "test_landmark_evidence -k where_they_are_missed",
+            "test_score -k landmarks_support",
         ),
         (
             "< numbers.landmark_radius).any(axis=0)",
             "< 2 * numbers.landmark_radius).any(axis=0)",
-            "test_landmark_evidence -k far_as_they_reach",
+            "test_score -k landmarks_support",
         ),
         (
             "(lead, heat_guidance(*heat))",
@@ -922,12 +926,12 @@ MUTANTS = tuple(
         (
             "return alone + (1.0 - alone) * support",
             "return max(alone, support)",
-            "test_landmark_evidence -k takes_away",
+            "test_score",
         ),
         (
             "probability(score, one, deformation_energy, support, numbers)",
             "probability(score, one, deformation_energy, 0.0, numbers)",
-            "test_landmark_evidence -k takes",
+            "test_score",
         ),
         (
             "replace(samples, landmark_cost=None))[0]",
@@ -988,15 +992,15 @@ MUTANTS = tuple(
         ("(second.confidence or 0.0) > (first.confidence or 0.0)", "True", "test_parts -k may_be_a_whole"),
         # whether the open shape has more than the closed one
         ("least = math.sqrt(SCORE.part.full_area)", "least = SCORE.part.full_area", "test_parts -k may_have_more"),
-        ("for one in (likely if worth else likely[:1])", "for one in likely[:1]", "test_small_parts"),
+        ("for one in (likely if worth else likely[:1])", "for one in likely[:1]", "test_parts_alternatives"),
         # where the search for a part ends early, and what comes before the full one
-        ("(apart < numbers.distinct_distance)", "(apart > numbers.distinct_distance)", "test_small_parts"),
-        ("found.score < numbers.early_exit_score or", "", "test_small_parts -k search_ends"),
-        (">= numbers.early_exit_agreement", ">= 0.0", "test_small_parts -k search_ends"),
+        ("(apart < numbers.distinct_distance)", "(apart > numbers.distinct_distance)", "test_parts_alternatives"),
+        ("found.score < numbers.early_exit_score or", "", "test_parts_alternatives -k search_ends"),
+        (">= numbers.early_exit_agreement", ">= 0.0", "test_parts_alternatives -k search_ends"),
         ("return best if is_clear or best.verdict", "return best if best.verdict", "test_parts -k may_be_a_whole"),
         # where landmarks begin no maps
-        ("return keeps_all and has_clear_map([best])", "return keeps_all", "test_early_exit"),
-        ("return keeps_all and has_clear_map([best])", "return has_clear_map([best])", "test_early_exit"),
+        ("return keeps_all and has_clear_map([best])", "return keeps_all", "test_symmetries"),
+        ("return keeps_all and has_clear_map([best])", "return has_clear_map([best])", "test_symmetries"),
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (

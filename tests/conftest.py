@@ -9,7 +9,10 @@ import os
 import pkgutil
 import signal
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,10 +21,44 @@ from scipy.spatial import ConvexHull
 
 import kfmaps
 from kfmaps import InvalidInput, MissingDependency
-from kfmaps.fmap.convert import nearest
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
+from kfmaps.fmap.convert import nearest, to_functional
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io.record import MeshFile
+from kfmaps.matching.candidates import score_maps
+from kfmaps.matching.initial_maps import Start
+from kfmaps.matching.quality import sample_for_scoring
+from kfmaps.matching.ranking import ProxyCache
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import search_map
+from kfmaps.matching.search_result import SearchResult
+
+NO_FACES = np.zeros((0, 3), dtype=np.int64)
+NO_LANDMARKS = np.zeros((0, 2), dtype=np.int64)
+SMALL = replace(
+    Config(),
+    basis=BasisConfig(n_eigenfunctions=40),
+    descriptors=replace(Config().descriptors, n_eigenfunctions=90, shot_radius=0.15),
+    nystrom=NystromConfig(samples=100),
+    refinement=ZoomOut(50, 90, 10, descriptor_weight=36.0),
+    search=Search(candidates=2, n_sign_functions=3),
+    threads=2,
+)
+"""Settings of a search that takes a second."""
+
+
+def small_fit(functions: int, spectral: int, eigenfunctions: int, samples: int, **more: Any) -> Config:
+    """Settings of a single fit of so many functions, which takes a moment."""
+    return replace(
+        Config.single_fit(),
+        basis=BasisConfig(n_eigenfunctions=functions),
+        descriptors=DescriptorConfig(n_spectral=spectral, n_eigenfunctions=eigenfunctions, shot=False),
+        nystrom=NystromConfig(samples=samples),
+        **{"refinement": None, "threads": 1, **more},
+    )
+
 
 pytest.register_assert_rewrite("chromium", "reviewing")  # they have fixtures: test modules name them as plugins
 
@@ -55,6 +92,57 @@ def blob(n: int = 400, twist: float = 0.0) -> Mesh:
     x, y, z = sphere.vertices.T
     stretch = 1 + 0.35 * np.sin(2 * x + 0.5) + 0.25 * np.cos(3 * y - 1) * z + 0.2 * x * y
     return Mesh(sphere.vertices * stretch[:, None] * np.array([1.0, 1.3, 0.8]), sphere.faces)
+
+
+def cloud_of(mesh: Mesh) -> Mesh:
+    """Its vertices alone."""
+    return Mesh(mesh.vertices, NO_FACES)
+
+
+def shifted(mesh: Mesh, *by: float) -> Mesh:
+    return Mesh(mesh.vertices + np.array(by), mesh.faces)
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    """All of them as one mesh, each where it is."""
+    starts = np.cumsum([0, *(len(m.vertices) for m in meshes)])
+    faces = [m.faces + start for m, start in zip(meshes, starts, strict=False)]
+    return Mesh(np.concatenate([m.vertices for m in meshes]), np.concatenate(faces))
+
+
+def reordered(mesh: Mesh, order: np.ndarray) -> Mesh:
+    """The same surface; its vertex ``i`` was ``order[i]``."""
+    return Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
+
+
+def inside_out(mesh: Mesh) -> Mesh:
+    return Mesh(mesh.vertices, mesh.faces[:, ::-1])
+
+
+def sheet(x: np.ndarray, y: np.ndarray) -> Mesh:
+    """A flat rectangle of squares that are cut in two, seen from above; ``y`` changes fastest."""
+    across, along = (part.ravel() for part in np.meshgrid(x, y, indexing="ij"))
+    a = (np.arange(len(x) - 1)[:, None] * len(y) + np.arange(len(y) - 1)).ravel()
+    b = a + len(y)
+    faces = np.concatenate([np.stack([a, b, b + 1], axis=1), np.stack([a, b + 1, a + 1], axis=1)])
+    return Mesh(np.stack([across, along, 0 * across], axis=1), faces)
+
+
+def rotation(seed: int) -> np.ndarray:
+    """A random rotation, (3, 3)."""
+    q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    return q * np.sign(np.linalg.det(q))
+
+
+@cache
+def two_poses(vertices: int) -> kfmaps.datasets.ExamplePair:
+    """One creature in two poses, generated once."""
+    return kfmaps.datasets.two_poses(vertices, rng=3)
+
+
+def functional_map(points: np.ndarray, source: Any, target: Any, k: int = 40) -> np.ndarray:
+    """The functional map of ``points`` between prepared shapes, (k, k)."""
+    return np.asarray(to_functional(points, source.basis.truncate(k), target.basis.truncate(k)))
 
 
 def random_basis(n: int, k: int, rng: np.random.Generator) -> Basis:
@@ -95,6 +183,45 @@ def creatures() -> tuple[Any, Any, np.ndarray]:
     config = kfmaps.Config()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
     return shapes[0], shapes[1], made.truth
+
+
+def judged_pair(source: Any, target: Any, truth: np.ndarray, **how: Any) -> SimpleNamespace:
+    """Prepared shapes with samples of each, copies of both, and the true map as a candidate."""
+    each = sample_for_scoring(source, **how), sample_for_scoring(target, **how)
+    samples = two_level_samples(source, target, each)
+    C = functional_map(truth, source, target)
+    return SimpleNamespace(
+        source=source,
+        target=target,
+        truth=truth,
+        samples=samples,
+        on=samples.fine,
+        C=C,
+        right=score_maps([Start("truth", C)], samples.fine)[0],
+        copies=ProxyCache.of(source, target, samples.fine),
+    )
+
+
+@pytest.fixture(scope="session")
+def judged(creatures: tuple[Any, Any, np.ndarray]) -> SimpleNamespace:
+    """The creatures and how maps between them are judged."""
+    return judged_pair(*creatures, count=200)
+
+
+@pytest.fixture(scope="session")
+def symmetric() -> SimpleNamespace:
+    """Two poses of a creature that its mirror image equals, prepared for a small search."""
+    made = kfmaps.datasets.symmetric_creature(1500, rng=1)
+    source, target = (kfmaps.prepare(mesh, SMALL, name=name) for mesh, name in ((made.source, "a"), (made.target, "b")))
+    found = judged_pair(source, target, made.truth)
+    found.mirrored = made.mirrored
+    return found
+
+
+@pytest.fixture(scope="session")
+def unmarked(symmetric: SimpleNamespace) -> SearchResult:
+    """The search between them without landmarks."""
+    return search_map(symmetric.source, symmetric.target, SMALL)
 
 
 @pytest.fixture(scope="module")

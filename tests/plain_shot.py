@@ -43,12 +43,12 @@ def plain_frame(near: list, radius: float) -> np.ndarray:
     return np.array([x, np.cross(z, x), z])
 
 
-def plain_shot(mesh: Mesh, radius: float, samples: int) -> np.ndarray:
-    """The definition in degrees, looking at every volume and every bin of every pair."""
+def plain_shot(mesh: Mesh, radius: float, samples: int, at: np.ndarray) -> np.ndarray:
+    """The definition in degrees for the vertices ``at``, looking at every volume and every bin of every pair."""
     radius = radius * np.sqrt(surface_area(mesh))
     support = plain_support(mesh, samples)
     rows = []
-    for vertex in mesh.vertices:
+    for vertex in mesh.vertices[at]:
         near = [(p - vertex, np.linalg.norm(p - vertex), n, w) for p, n, w in support]
         near = [pair for pair in near if 0 < pair[1] <= radius]
         frame = plain_frame(near, radius)

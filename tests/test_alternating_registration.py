@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -11,9 +10,10 @@ import numpy as np
 import pytest
 
 import kfmaps
+from conftest import NO_LANDMARKS, cloud_of, functional_map
 from kfmaps._arrays import NotConverged
 from kfmaps._threads import limit_threads
-from kfmaps.fmap.convert import nearest, to_functional
+from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.matching import finish, ranking, search_result
@@ -41,24 +41,15 @@ from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.search_state import SearchState
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import (
-    ProxyPair,
+    AlternatingResult,
     _project_positions,
     alternating_registration,
     position_normal_guidance,
-    proxy_pair,
 )
-from kfmaps.registration.evidence import FINE_VERTICES, coarse_copy
 
 GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.evidence")
 
-NO_LANDMARKS = np.zeros((0, 2), dtype=np.int64)
-
-
-@pytest.fixture(autouse=True)
-def one_thread() -> Iterator[None]:
-    """Work on one thread, so that calls that a test records come in order."""
-    with limit_threads(1):
-        yield
+NOTHING = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @pytest.fixture(autouse=True)
@@ -68,69 +59,58 @@ def alike(monkeypatch):
         monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
 
 
-def both(source, target) -> ProxyPair:
-    a, b = coarse_copy(source, FINE_VERTICES), coarse_copy(target, FINE_VERTICES)
-    assert a is not None
-    assert b is not None
-    return proxy_pair(source, target, (a, b))
+@pytest.fixture(scope="module")
+def astray(judged):
+    """A map to nowhere."""
+    return np.linalg.qr(np.random.default_rng(0).normal(size=judged.C.shape))[0]
 
 
-def ended(C, on, led) -> alternate.AlternatingResult:
-    *_, last = alternating_registration(C, on, led, NO_LANDMARKS)
-    return last
-
-
-def points_of(C, source, target):
+def error(C, judged):
     k_t, k_s = C.shape
-    images = source.basis.functions[:, :k_s] @ C.T
-    return nearest(np.ascontiguousarray(target.basis.functions[:, :k_t]), images)
+    images = judged.source.basis.functions[:, :k_s] @ C.T
+    points = nearest(np.ascontiguousarray(judged.target.basis.functions[:, :k_t]), images)
+    return kfmaps.geodesic_errors(judged.source.mesh, points, judged.truth).mean()
 
 
-def error(C, source, target, truth):
-    return kfmaps.geodesic_errors(source.mesh, points_of(C, source, target), truth).mean()
+def torn(judged, parts):
+    """The true map, of which one of so many parts is sent elsewhere."""
+    points = judged.truth.copy()
+    high = np.argsort(judged.target.mesh.vertices[:, 0])[-len(points) // parts :]
+    points[high] = np.random.default_rng(0).permutation(points[high])
+    return functional_map(points, judged.source, judged.target)
 
 
-def test_a_torn_map_is_mended(creatures):
-    """A third of the target is sent elsewhere: what remains pulls it back, which functions alone do not."""
-    source, target, truth = creatures
-    torn = truth.copy()
-    high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
-    torn[high] = np.random.default_rng(0).permutation(torn[high])
-    C = to_functional(torn, source.basis.truncate(40), target.basis.truncate(40))
-    found = ended(C, both(source, target), None)
-    assert error(found.functional_map, source, target, truth) < 0.7 * error(C, source, target, truth)
-    assert found.registered_vertices.shape == source.mesh.vertices.shape
+def repaired(judged, *begun, progress=None) -> Any:
+    ranked = [replace(c, deformation_energy=1.0) for c in begun]
+    more = () if progress is None else (progress,)
+    with limit_threads(1):  # one repair after another
+        return refine_by_registration(ranked, judged.on, judged.copies, NO_LANDMARKS, *more)
 
 
-def test_bent_vertices_lie_where_the_truth_says(creatures):
-    source, target, truth = creatures
-    C = to_functional(truth, source.basis.truncate(60), target.basis.truncate(60))
-    bent = ended(C, both(source, target), None).registered_vertices
-    off = np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1)
+def test_rounds_mend_a_torn_map_and_bend_vertices_to_where_the_truth_says(judged, monkeypatch):
+    """What remains of a torn map pulls the rest back, which functions alone do not; each fit is followed by a
+    refinement that it takes part in."""
+    pair, C = judged.copies.fine, torn(judged, 4)
+    *_, mended = alternating_registration(C, pair, None, NO_LANDMARKS)
+    assert error(mended.functional_map, judged) < 0.7 * error(C, judged)
+    rounds = list(alternating_registration(judged.C, pair, None, NO_LANDMARKS))
+    off = np.linalg.norm(rounds[-1].registered_vertices[judged.truth] - judged.target.mesh.vertices, axis=1)
     assert off.mean() < 0.04
-
-
-def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, monkeypatch):
-    source, target, truth = creatures
-    C = to_functional(truth, source.basis.truncate(40), target.basis.truncate(40))
-    rounds = [one.functional_map for one in alternating_registration(C, both(source, target), None, NO_LANDMARKS)]
     assert len(rounds) == alternate._ROUNDS
-    assert not np.array_equal(rounds[0], rounds[-1])
+    assert not np.array_equal(rounds[0].functional_map, rounds[-1].functional_map)
     monkeypatch.setattr(alternate, "WEIGHT", 0.0)
-    without = ended(C, both(source, target), None).functional_map
-    assert error(rounds[-1], source, target, truth) < error(without, source, target, truth)
+    *_, without = alternating_registration(judged.C, pair, None, NO_LANDMARKS)
+    assert error(rounds[-1].functional_map, judged) < error(without.functional_map, judged)
 
 
-def test_positions_are_spread_smoothly(creatures):
-    source = creatures[0]
-    on = both(source, source)
-    again = _project_positions(on.copies[0].mesh.vertices, on.bases[0], source.basis)
-    off = np.linalg.norm(again - source.mesh.vertices, axis=1)
-    assert off.mean() < 0.01
+def test_positions_are_spread_smoothly(judged):
+    pair, source = judged.copies.fine, judged.source
+    again = _project_positions(pair.copies[0].mesh.vertices, pair.bases[0], source.basis)
+    assert np.linalg.norm(again - source.mesh.vertices, axis=1).mean() < 0.01
 
 
-def test_what_lies_on_itself_differs_nowhere(creatures):
-    mesh = creatures[0].mesh
+def test_what_lies_on_itself_differs_nowhere(judged):
+    mesh = judged.source.mesh
     guide = position_normal_guidance(mesh, mesh)
     assert np.array_equal(guide.source, guide.target)
     a, b = np.random.default_rng(0).integers(len(mesh.vertices), size=(2, 4000))
@@ -138,206 +118,145 @@ def test_what_lies_on_itself_differs_nowhere(creatures):
     assert apart.mean() == pytest.approx(1.0, abs=0.1)
 
 
-def test_point_clouds_are_not_bent(creatures):
-    source = creatures[0]
-    cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
-    on = two_level_samples(source, source, (sample_for_scoring(source, 200), sample_for_scoring(source, 200))).fine
-    for shapes in ((replace(source, mesh=cloud), source), (source, replace(source, mesh=cloud))):
+def test_point_clouds_are_not_bent(judged):
+    source, on = judged.source, judged.on
+    cloud = replace(source, mesh=cloud_of(source.mesh))
+    for shapes in ((cloud, source), (source, cloud)):
         assert ProxyCache.of(*shapes, on).fine is None
     for coarse in ((None, on.target.copy), (on.source.copy, None)):
         assert ProxyCache(source, source, coarse).coarse is None
 
 
-def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
-    source, target, _ = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    kept, image = ProxyCache.of(source, target, on), ProxyCache.of(source, target, mirrored_pair(on))
-    assert kept.coarse is not None
-    assert kept.coarse is kept.coarse
-    assert kept.fine is not None
-    assert kept.fine is kept.fine
-    assert kept.image is target
-    assert image.coarse is not None
-    assert image.fine is not None
-    for one, other in ((kept.coarse, image.coarse), (kept.fine, image.fine)):
-        (a, b), (c, d) = one.copies, other.copies
+def test_copies_are_made_once_and_of_the_image_that_is_meant(judged):
+    kept: Any = judged.copies
+    image: Any = ProxyCache.of(judged.source, judged.target, mirrored_pair(judged.on))
+    assert kept.image is judged.target
+    np.testing.assert_array_equal(image.image.mesh.vertices, judged.target.mesh.vertices * MIRROR)
+    for name in ("coarse", "fine"):
+        assert getattr(kept, name) is getattr(kept, name)
+        (a, b), (c, d) = (getattr(of, name).copies for of in (kept, image))
         np.testing.assert_array_equal(c.mesh.vertices, a.mesh.vertices)
         np.testing.assert_array_equal(d.mesh.vertices, b.mesh.vertices * MIRROR)
-    np.testing.assert_array_equal(image.image.mesh.vertices, target.mesh.vertices * MIRROR)
-    here, there = kept.shot_guidance, image.shot_guidance
-    assert here is not None
-    assert there is not None
-    assert here is kept.shot_guidance
-    assert not np.allclose(here.target, there.target)
+    assert kept.shot_guidance is kept.shot_guidance
+    assert not np.allclose(kept.shot_guidance.target, image.shot_guidance.target)
 
 
-def test_mending_tells_how_far_it_is(creatures, monkeypatch):
-    """Five to ten seconds on real shapes, in which nobody should wonder."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
+def test_mending_tells_how_far_it_is(judged, monkeypatch):
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     told = []
-    refine_by_registration(
-        ranked,
-        on,
-        ProxyCache.of(source, target, on),
-        np.zeros((0, 2), dtype=np.int64),
-        lambda *what: told.append(what),
-    )
-    assert {stage for stage, _ in told} == {"bent and matched in turn"}
-    assert [done for _, done in told] == [0.0, 0.5, 1.0]
+    repaired(judged, judged.right, progress=lambda *what: told.append(what))
+    assert told == [("bent and matched in turn", done) for done in (0.0, 0.5, 1.0)]
 
 
-def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, monkeypatch):
+def test_the_target_is_bent_and_the_source_where_that_is_asked_for(judged, monkeypatch):
     """Of the winner alone, and not where a copy falls apart."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
+    n_s, n_t = (len(shape.mesh.vertices) for shape in (judged.source, judged.target))
     calls, apart = [], []
 
     def made(C, on, led, _landmarks):
-        calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T)))
-        if (on.source is target) in apart:
+        calls.append((on.source is judged.target, led.source.shape[0], np.array_equal(C, judged.C.T)))
+        if (on.source is judged.target) in apart:
             raise NotConverged("it fell apart")
-        yield alternate.AlternatingResult(C, on.source.mesh.vertices)
-
-    def end():
-        found, retries = refine_by_registration(
-            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64)
-        )
-        assert len(found) == 1
-        return found[0], retries
+        yield AlternatingResult(C, on.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    first, retries = end()
-    n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
+    (first,), (way,) = repaired(judged, judged.right)  # nothing else was mended
     assert calls == [(True, n_t, True)]
-    (way,) = retries  # nothing else was mended
-    assert isinstance(way, mending.SwappedRepair)
     other = way.make()
-    assert other is not None
     assert calls[1:] == [(False, n_s, False)]
     for one, backwards, count in ((first, True, n_t), (other, False, n_s)):
         assert one.swapped == backwards
-        assert len(np.asarray(one.registered_vertices)) == count
-        np.testing.assert_array_equal(one.functional_map, ranked[0].functional_map)
+        assert len(one.registered_vertices) == count
+        np.testing.assert_array_equal(one.functional_map, judged.C)
     apart.append(False)
     assert way.make() is None
     apart.append(True)
-    assert end()[0].registered_vertices is None
+    assert repaired(judged, judged.right)[0][0].registered_vertices is None
 
 
-def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeypatch):
+def test_likely_pairings_are_begun_with_where_no_map_has_them(judged, monkeypatch):
     """With their own tips, which what is mended keeps to, and only as long as the copies hold."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
+    on = judged.on
     (best, *others) = match_extremities(on.source, on.target, on.descriptor_cost)
     mirror = next(one for one in others if one.contradicts(best))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
     monkeypatch.setattr(mending, "complete_match", lambda one, _likely: one)
-    calls, begun, asked = [], [], []
+    begun, asked = [], []
 
     def tips_of(pairing, *rest):
         asked.append(f"{pairing}")
         return vertices_of_match(pairing, *rest)
 
-    def made(C, on, led, _landmarks):
-        calls.append(led.source.shape[1])
+    def made(C, on, _led, _landmarks):
         begun.append(C)
-        if len(calls) == 5:
+        if len(begun) == 5:
             raise NotConverged("it fell apart")
-        yield alternate.AlternatingResult(C, on.source.mesh.vertices)
+        yield AlternatingResult(C, on.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "vertices_of_match", tips_of)
-    landmarks = np.zeros((0, 2), dtype=np.int64)
-    with kfmaps.limit_threads(1):
-        found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)
+    found, (other, _) = repaired(judged, judged.right)
     names = {c.name for c in found}
-    assert isinstance(other, Candidate)
-    assert {found[0].name, other.name} == names
-    assert len(calls) == 2  # the truth has the best pairing itself
-    assert asked == [f"{match_of_map(ranked[0].points, on.source, on.target)}", f"{mirror}"]
+    assert {found[0].name, other.name} == names == {"truth", f"{mirror}"}
+    assert len(begun) == 2  # the truth has the best pairing itself
+    assert asked == [f"{match_of_map(judged.right.points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
-    assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
-    with kfmaps.limit_threads(1):
-        found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks)[0]
-    assert f"{mirror}" not in {c.name for c in found}
-    assert len(calls) == 5
+    assert f"{mirror}" not in {c.name for c in repaired(judged, judged.right)[0]}
+    assert len(begun) == 5
 
 
-def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creatures, monkeypatch):
+def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(judged, astray, monkeypatch):
     """The best repair began with an extremity match, all others lag: what is left of it leads nevertheless."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
-    good, bad = score_maps([Start("matched", C), Start("before", turned)], on)
+    good, bad = score_maps([Start("matched", judged.C), Start("before", astray)], judged.on)
 
     def made(C, where, *_rest):
-        yield alternate.AlternatingResult(C, where.source.mesh.vertices)
-        if not np.array_equal(C, turned.T):
+        yield AlternatingResult(C, where.source.mesh.vertices)
+        if not np.array_equal(C, astray.T):
             raise NotConverged("it fell apart")
-        yield alternate.AlternatingResult(C, where.source.mesh.vertices)
+        yield AlternatingResult(C, where.source.mesh.vertices)
+
+    monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=0.01))
+    monkeypatch.setattr(mending, "alternating_registration", made)
 
     def plan(setting, near):
         return [*(mending.Repair(setting, c, None) for c in near), mending.Repair(setting, good, None, False)]
 
-    monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=0.01))
-    monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "_plan_repairs", plan)
-    ranked = [replace(bad, deformation_energy=1.0)]
-    none = np.zeros((0, 2), dtype=np.int64)
-    found, _ = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), none)
-    assert [c.name for c in found] == ["matched", "before"]
+    assert [c.name for c in repaired(judged, bad)[0]] == ["matched", "before"]
 
 
-def test_what_lags_after_one_round_is_given_up(creatures, monkeypatch):
+def test_what_lags_after_one_round_is_given_up(judged, astray, monkeypatch):
     """It stays a rival that is bent as badly as the worst; what was good before its first round is not given up."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    turned = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
-    good, bad = score_maps([Start("", C), Start("", turned)], on)
+    good, bad = score_maps([Start("0", judged.C), Start("1", astray)], judged.on)
     gap, rounds = good.quality.score - bad.quality.score, []
 
     def made(C, where, *_rest):
+        back = where.source is judged.target
         for i in range(2):
-            rounds.append(
-                (where.source is target, np.array_equal(C, turned.T if where.source is target else turned), i)
-            )
-            yield alternate.AlternatingResult(C, where.source.mesh.vertices)
+            rounds.append((back, np.array_equal(C, astray.T if back else astray), i))
+            yield AlternatingResult(C, where.source.mesh.vertices)
 
-    def repaired(*begun, lag):
+    def after(*begun, lag):
         """What repairs that change nothing leave of some maps, when they lag by so much."""
         rounds.clear()
         monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=lag, repairable_margin=np.inf))
-        ranked = [replace(c, name=f"{i}", deformation_energy=1.0) for i, c in enumerate(begun)]
-        return refine_by_registration(ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64))[
-            0
-        ]
+        return repaired(judged, *begun)[0]
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    assert [c.name for c in repaired(good, bad, lag=gap + 0.01)] == ["0", "1"]
+    assert [c.name for c in after(good, bad, lag=gap + 0.01)] == ["0", "1"]
     assert rounds.count((True, True, 1)) == 1
-    first, second = repaired(good, bad, lag=gap - 0.01)
+    first, second = after(good, bad, lag=gap - 0.01)
     assert (first.name, second.name) == ("0", "1")
     assert (True, True, 0) in rounds
     assert (True, True, 1) not in rounds
     assert second.deformation_energy == first.deformation_energy  # the worst of one
     assert second.score < first.score - 1
     # What was as good before is not given up.
-    repaired(good, replace(bad, quality=good.quality), lag=gap - 0.01)
-    assert (True, True, 1) in rounds
-    assert (False, True, 1) in rounds
+    after(good, replace(bad, quality=good.quality), lag=gap - 0.01)
+    assert {(True, True, 1), (False, True, 1)} <= set(rounds)
 
 
 def test_pairings_are_heard_once():
@@ -361,124 +280,89 @@ def test_pairings_are_heard_once():
     assert not whole.contradicts(part)
 
 
-def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
-    """As the right map of a body that touches itself."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("truth", C)], on)]
-    astray = alternate.AlternatingResult(
-        np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices
-    )
-    monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: iter([astray]))
+def test_what_goes_astray_stays_as_it_was(judged, astray, monkeypatch):
+    lost = AlternatingResult(astray, judged.target.mesh.vertices)
+    monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: iter([lost]))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    nowhere = np.zeros((0, 2), dtype=np.int64)
-    (found,), retries = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere)
-    assert found.functional_map is ranked[0].functional_map
+    (found,), (way,) = repaired(judged, judged.right)
+    assert found.functional_map is judged.right.functional_map
     assert found.registered_vertices is None
-    (way,) = retries
-    assert isinstance(way, mending.SwappedRepair)
-    made = way.make()
-    assert made is not None
-    assert not made.swapped
+    assert not way.make().swapped
     # Looked at as closely as what it is compared with.
-    assert found.deformation_energy is not None
     assert found.deformation_energy < 0.5
     assert found.strain is not None
 
 
-def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("rough", rough)], on)]
-    astray = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
+def test_what_goes_astray_one_way_is_mended_the_other(judged, astray, monkeypatch):
+    rough = judged.C + 0.02 * np.random.default_rng(1).normal(size=judged.C.shape)
 
     def made(_C, where, *_rest):
-        yield alternate.AlternatingResult(astray if where.source is target else C, where.source.mesh.vertices)
+        found = astray if where.source is judged.target else judged.C
+        yield AlternatingResult(found, where.source.mesh.vertices)
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    nowhere = np.zeros((0, 2), dtype=np.int64)
-    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere)[0]
-    np.testing.assert_array_equal(found.functional_map, C)
+    (found,) = repaired(judged, *score_maps([Start("rough", rough)], judged.on))[0]
+    np.testing.assert_array_equal(found.functional_map, judged.C)
     assert not found.swapped
-    assert found.registered_vertices is source.mesh.vertices
+    assert found.registered_vertices is judged.source.mesh.vertices
 
 
-def on_a_line(*places: float) -> Any:
-    """A probe of which only positions are asked for: sample i lies at the i-th place."""
-    return SimpleNamespace(positions=np.array([[x, 0.0, 0.0] for x in places]))
-
-
-def test_what_is_not_mended_stays_and_stays_once():
-    """Also where a second look has put the second far behind the third."""
-    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, deformation_energy=0.15)
+@pytest.mark.parametrize(
+    ("scores", "places", "mended"),
+    [
+        ((-1.0, -9.0, -4.0, -4.5), (0.0, 1.0, 2.0, 3.0), "ac"),  # as where a second look has put one far behind
+        ((0.0,) * 7, (0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0), "abef"),  # however many hardly differ from the first
+    ],
+)
+def test_the_first_few_are_mended_and_those_that_differ_and_the_rest_stays_once(scores, places, mended):
+    """Sample i lies at the i-th place, and the points of the i-th candidate all there."""
     ranked = [
-        replace(one, name=name, strain=-s / SCORE.w_strain, points=np.full(3, i))
-        for i, (name, s) in enumerate(zip("abcd", (-1.0, -9.0, -4.0, -4.5), strict=True))
+        Candidate(name, np.eye(2), np.full(3, i), NOTHING, strain=-s / SCORE.w_strain)
+        for i, (name, s) in enumerate(zip("abcdefg", scores, strict=False))
     ]
-    near, rest = repairable(ranked, on_a_line(0.0, 1.0, 2.0, 3.0))
-    assert [c.name for c in near] == ["a", "c"]
-    assert [c.name for c in rest] == ["b", "d"]
+    on: Any = SimpleNamespace(positions=np.array([[x, 0.0, 0.0] for x in places]))
+    near, rest = ("".join(c.name for c in some) for some in repairable(ranked, on))
+    assert near == mended
+    assert rest == "".join(c.name for c in ranked if c.name not in mended)
 
 
-def test_the_first_few_are_mended_and_those_that_differ():
-    """However many hardly differ from the first, a rival is mended too."""
-    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    ranked = [Candidate(n, np.eye(2), np.full(3, i), judgement) for i, n in enumerate("abcdefg")]
-    near, rest = repairable(ranked, on_a_line(0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0))
-    assert [c.name for c in near] == ["a", "b", "e", "f"]
-    assert [c.name for c in rest] == ["c", "d", "g"]
-
-
-def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    torn = truth.copy()
-    high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 6 :]
-    torn[high] = np.random.default_rng(0).permutation(torn[high])
-    bases = source.basis.truncate(40), target.basis.truncate(40)
-    maps = [np.asarray(to_functional(points, *bases)) for points in (torn, truth)]
-    bad, good = score_maps([Start("torn", maps[0]), Start("truth", maps[1])], on)
+def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(judged):
+    starts = [Start("torn", torn(judged, 6)), Start("truth", judged.C)]
+    bad, good = score_maps(starts, judged.on)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
-    of = ProxyCache.of(source, target, on)
-    ranked = ranking.ranking([bad], on, of)
-    found = rerank_near_duplicates(ranked, [bad, good], on, of)
+    ranked: Any = ranking.ranking([bad], judged.on, judged.copies)
+
+    def reranked(*found, **how):
+        return rerank_near_duplicates(ranked, list(found), judged.on, judged.copies, **how)
+
+    found: Any = reranked(bad, good)
     assert [c.name for c in found] == ["truth", "torn"]
     assert found[1] is ranked[0]
-    assert found[0].deformation_energy is not None
-    assert ranked[0].deformation_energy is not None
     assert found[0].deformation_energy < ranked[0].deformation_energy
-    assert rerank_near_duplicates(ranked, [bad], on, of) == ranked
+    assert reranked(bad) == ranked
     # Not where it is too far behind before that.
     far = replace(good, quality=replace(good.quality, distortion=good.quality.distortion + 0.2))
-    assert {c.name for c in rerank_near_duplicates(ranked, [bad, far], on, of)} == {"truth", "torn"}
-    assert rerank_near_duplicates(ranked, [bad, far], on, of, behind=1.0) == ranked
+    assert {c.name for c in reranked(bad, far)} == {"truth", "torn"}
+    assert reranked(bad, far, behind=1.0) == ranked
 
 
 def test_a_map_deforms_too_much_or_not():
-    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), Quality(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    usual = np.exp(
-        SCORE.calibration.usual_log_deformation + SCORE.calibration.log_deformation_per_score * one.quality.score
-    )
-    assert deforms_too_much(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation + 0.01)))
-    assert not deforms_too_much(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation - 0.01)))
-    assert not deforms_too_much(one)
+    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), replace(NOTHING, distortion=1.0))
+    numbers = SCORE.calibration
+    usual = np.exp(numbers.usual_log_deformation + numbers.log_deformation_per_score * one.quality.score)
+    energies = [None, *(usual * np.exp(SCORE.excess_deformation + more) for more in (-0.01, 0.01))]
+    assert [deforms_too_much(replace(one, deformation_energy=e)) for e in energies] == [False, False, True]
 
 
-def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monkeypatch):
-    """And none of them is taken for a rival of the other."""
-    source, target, truth = creatures
+def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(judged, monkeypatch):
+    source, target = judged.source, judged.target
     on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target)))
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    best = score_maps([Start("best", C)], on.fine)[0]
+    best = score_maps([Start("best", judged.C)], on.fine)[0]
     few = np.where(np.arange(len(best.points)) < len(best.points) // 20, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
-    alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
+    alike = replace(best, name="alike", points=few, quality=worse, functional_map=judged.C.copy())
     assert SCORE.duplicate_distance < map_distance(best, alike, on.fine.source) < SCORE.distinct_distance
     bends = {"best": 0.12, "alike": 0.06}
     monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
@@ -487,25 +371,21 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
         "with_deformation_energy",
         lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some],
     )
-    config = replace(kfmaps.Config(), threads=1)
-    assert config.search is not None
-    preserving = replace(config, search=replace(config.search, orientation="preserving"))
-    found = choose.search_map(source, target, preserving)
+    config = kfmaps.Config(threads=1, search=kfmaps.Search(orientation="preserving"))
+    found = choose.search_map(source, target, config)
     assert found.initialization == "alike"
     assert len(found.scores) == 1
 
 
-def test_the_match_that_is_worth_more_is_taken(creatures):
+def test_the_match_that_is_worth_more_is_taken(judged):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
-    source, target, truth = creatures
-    one = finish.match_from_map(source, target, finish.KnownMap(truth, "a", quality=-9.0))
-    assert one.registration.report is not None
+    one = finish.match_from_map(judged.source, judged.target, finish.KnownMap(judged.truth, "a", quality=-9.0))
+    areas = vertex_areas(judged.target.mesh)
 
     def made(score, share):
-        order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
-        trust = np.where(order, 0.4, 0.9)
-        judged = replace(one.score, scores=(score,))
-        return replace(one, score=judged, local_confidence=trust, seconds={}, verdict=f"{share}")
+        trust = np.where(np.cumsum(areas) <= share * areas.sum(), 0.4, 0.9)
+        marked = replace(one.score, scores=(score,))
+        return replace(one, score=marked, local_confidence=trust, seconds={}, verdict=f"{share}")
 
     known = replace(made(-9.0, 0.3), seconds=one.seconds)
     for lost, taken in ((0.1 * SCORE.w_torn, 0.1), (0.3 * SCORE.w_torn, 0.3), (-1.0, 0.1)):
@@ -517,10 +397,9 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
     assert better_match(known, replace(refused, registration=MatchRegistration())) is known
 
 
-def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):
-    source, target, truth = creatures
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    other = SearchResult(C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
+def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(judged, monkeypatch):
+    source, target = judged.source, judged.target
+    other = SearchResult(judged.C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
     asked = []
     ways: Any = (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
     monkeypatch.setattr(matching, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
@@ -536,22 +415,20 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
 
 
-def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
+def test_a_search_tells_what_else_may_turn_out_better(judged, monkeypatch):
     """Each where its score is above what is known; the alternatives of each differ from it."""
-    source, target, _ = creatures
-    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, deformation_energy=0.15)
+    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), NOTHING, deformation_energy=0.15)
     ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / SCORE.w_strain) for i in range(5)]
     twin = replace(one, name="twin", strain=0.5 / SCORE.w_strain)
     setting: Any = None
-    astray = mending.SwappedRepair(mending.Repair(setting, twin, None), (0.0, 0.0))
+    back = mending.SwappedRepair(mending.Repair(setting, twin, None), (0.0, 0.0))
     monkeypatch.setattr(mending.SwappedRepair, "make", lambda _self: None)
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
-    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: (ranked, (ranked[2], twin, astray)))
+    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: (ranked, (ranked[2], twin, back)))
     monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
     monkeypatch.setattr(search_result, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
     monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
-    found = choose.search_map(source, target, kfmaps.Config())
+    found = choose.search_map(judged.source, judged.target, kfmaps.Config())
     made = [choose.retry(found, i, -np.inf) for i in range(3)]
     best = [c.score for c in ranked]
     assert [m and (m.initialization, m.scores[:2]) for m in (found, *made)] == [
@@ -563,26 +440,25 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
     assert [choose.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
 
 
-def test_where_the_target_lies_leads_as_well(creatures):
+def test_where_the_target_lies_leads_as_well(judged):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
-    source, target, _ = creatures
-    found = SearchResult(np.eye(5), "a", None, "unlikely", registered_vertices=target.mesh.vertices + 1.0, swapped=True)
-    led = matching._search_guidance(found, (source, target))
-    alone = matching._search_guidance(replace(found, registered_vertices=None), (source, target))
-    assert led is not None
-    assert alone is not None
-    lie = position_normal_guidance(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
-    np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
-    np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))
+    source, target = judged.source, judged.target
+    bent = target.mesh.vertices + 1.0
+    found = SearchResult(np.eye(5), "a", None, "unlikely", registered_vertices=bent, swapped=True)
+    led, alone = (
+        matching._search_guidance(one, (source, target)) for one in (found, replace(found, registered_vertices=None))
+    )
+    lie = position_normal_guidance(source.mesh, Mesh(bent, target.mesh.faces))
+    for side in ("source", "target"):
+        both = np.hstack([getattr(alone, side), np.sqrt(alternate.WEIGHT) * getattr(lie, side)])
+        np.testing.assert_allclose(getattr(led, side), both)
 
 
-def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
+def test_a_map_is_registered_on_proxies_either_way(judged, monkeypatch):
     """The vertices are those of the side that is registered; descriptors stay on their side."""
-    source, target, truth = creatures
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    pair = both(source, target)
+    source, target = judged.source, judged.target
+    pair, asked = judged.copies.fine, []
     led = DescriptorGuidance(source.mesh.vertices, target.mesh.vertices)
-    asked = []
     usual = mending.alternating_registration
 
     def told(C, pair, guidance, landmarks):
@@ -591,9 +467,8 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
 
     monkeypatch.setattr(mending, "alternating_registration", told)
     for swapped, moved, other in ((True, target, source), (False, source, target)):
-        *_, found = mending.register_map_on_proxies(C, pair, led, NO_LANDMARKS, swapped)
-        assert found is not None
-        assert error(found.functional_map, source, target, truth) < 0.05
+        found: Any = [*mending.register_map_on_proxies(judged.C, pair, led, NO_LANDMARKS, swapped)][-1]
+        assert error(found.functional_map, judged) < 0.05
         assert found.registered_vertices.shape == moved.mesh.vertices.shape
         shape, own, theirs = asked.pop()
         assert shape is moved
@@ -601,37 +476,27 @@ def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
         assert theirs is other.mesh.vertices
 
     def falls_apart(*_what):
-        yield alternate.AlternatingResult(C, source.mesh.vertices)
+        yield AlternatingResult(judged.C, source.mesh.vertices)
         raise NotConverged("it fell apart")
 
     monkeypatch.setattr(mending, "alternating_registration", falls_apart)
-    assert [one is None for one in mending.register_map_on_proxies(C, pair, led, NO_LANDMARKS)] == [False, True]
+    ended = mending.register_map_on_proxies(judged.C, pair, led, NO_LANDMARKS)
+    assert [one is None for one in ended] == [False, True]
 
 
-def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_images(creatures, monkeypatch):
+def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_images(judged, monkeypatch):
     """The repaired map stays where it is better, and where no proxy can be registered all stays as it is."""
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200)))
-    torn = truth.copy()
-    high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
-    torn[high] = np.random.default_rng(0).permutation(torn[high])
-    maps = [
-        np.asarray(to_functional(points, source.basis.truncate(40), target.basis.truncate(40)))
-        for points in (torn, truth)
-    ]
-    copies = ProxyCache.of(source, target, on.fine)
-    found = ranking.with_deformation_energy(
-        score_maps([Start("torn", maps[0]), Start("right", maps[1])], on.fine), copies
+    source, target, copies = judged.source, judged.target, judged.copies
+    starts = [Start("torn", torn(judged, 4)), Start("right", judged.C)]
+    found: Any = ranking.with_deformation_energy(score_maps(starts, judged.on), copies)
+    config, wrong = replace(kfmaps.Config(), threads=1), np.zeros(0, dtype=bool)
+    torn_first = SearchState(
+        source, target, config, NO_LANDMARKS, None, wrong, judged.samples, copies, found, found, "preserving"
     )
-    marks, wrong = np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=bool)
-    config = replace(kfmaps.Config(), threads=1)
-    torn_first = SearchState(source, target, config, marks, None, wrong, on, copies, found, found, "preserving")
-    best, second = choose._repair_best(torn_first).ranked
+    state: Any = choose._repair_best(torn_first)
+    best, second = state.ranked
     assert best.score > found[0].score
-    before, after = found[0].deformation_energy, best.deformation_energy
-    assert before is not None
-    assert after is not None
-    assert after < before
+    assert best.deformation_energy < found[0].deformation_energy
     assert second is found[1]
     compared = []
     monkeypatch.setattr(choose, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)

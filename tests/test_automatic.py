@@ -1,19 +1,17 @@
 """Matching without landmarks: the measures of a map, the choice, and when it says that it is unsure."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from conftest import blob, fibonacci_sphere
+from conftest import SMALL, blob, cloud_of, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
-from kfmaps.config import BasisConfig, Config, NystromConfig, Partial, Search
-from kfmaps.datasets import partial, symmetric_creature
+from kfmaps.config import Search
 from kfmaps.descriptors.shot import shot
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
-from kfmaps.fmap.evaluate import geodesic_errors
-from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching import finish
 from kfmaps.matching.candidates import candidates
@@ -22,32 +20,13 @@ from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShortDistances, map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct_candidates
 from kfmaps.matching.sample_pair import two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, excess_deformation, probability, verdict
+from kfmaps.matching.score import Candidate
 from kfmaps.matching.search import search_map
 from kfmaps.shape import mirror_image, prepare
 
-GUARDS = (
-    "kfmaps.descriptors.shot",
-    "kfmaps.fmap.descriptor_guidance",
-    "kfmaps.geometry.mesh",
-    "kfmaps.matching",
-    "kfmaps.shape",
-)
+GUARDS = ("kfmaps.descriptors.shot", "kfmaps.fmap.descriptor_guidance", "kfmaps.matching", "kfmaps.shape")
 
-SMALL = replace(
-    Config(),
-    basis=BasisConfig(n_eigenfunctions=40),
-    descriptors=replace(Config().descriptors, n_eigenfunctions=90, shot_radius=0.15),
-    nystrom=NystromConfig(samples=100),
-    refinement=ZoomOut(50, 90, 10),
-    search=Search(candidates=2, n_sign_functions=3),
-    threads=2,
-)
 BLOBS = SMALL, 700, 650
-
-
-def reflected(mesh: Mesh) -> Mesh:
-    return Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])
 
 
 def test_the_identity_is_a_perfect_map(shape):
@@ -60,29 +39,12 @@ def test_the_identity_is_a_perfect_map(shape):
 
 
 def test_the_map_to_the_mirror_image_reverses_orientation_and_nothing_else(shape):
-    """Same vertices, so the identity matrix is the true map."""
     here, there = sample_for_scoring(shape, 300), sample_for_scoring(mirror_image(shape), 300)
     found = map_quality(np.eye(60), here, there)
     assert found.orientation == pytest.approx(-1.0, abs=1e-2)
     assert found.distortion == pytest.approx(0)
     assert found.descriptors > 0.02
     assert found.score < map_quality(np.eye(60), here, here).score - 1.5
-
-
-def test_worse_maps_score_worse(shape, other):
-    here, there = sample_for_scoring(shape, 300), sample_for_scoring(other, 300)
-    truth = nearest(other.mesh.vertices, shape.mesh.vertices)
-    right = other.basis.truncate(60).project(shape.basis.functions[truth][:, :60])
-    good = map_quality(right, here, there)
-    rng = np.random.default_rng(0)
-    shuffled = map_quality(np.linalg.qr(rng.normal(size=(60, 60)))[0], here, there)
-    collapsed = map_quality(np.outer(np.eye(60)[0], np.eye(60)[0]), here, there)
-    assert good.orientation > 0.9
-    assert good.score > shuffled.score + 1
-    assert good.score > collapsed.score + 1
-    for worse in (shuffled, collapsed):
-        assert worse.distortion > 2 * good.distortion
-    assert collapsed.coverage < 0.5 * good.coverage
 
 
 def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
@@ -107,10 +69,8 @@ def test_stretch_counts_short_distances_alone():
 
 
 def test_quality_is_what_its_definition_says(shape, other):
-    """One product in single precision finds what exact searches find; differences keep to their formulas."""
-    here, there = subsample(sample_for_scoring(shape, 300), 200), subsample(sample_for_scoring(other, 300), 200)
-    assert here.descriptors is not None
-    assert there.descriptors is not None
+    sides: Any = [subsample(sample_for_scoring(one, 300), 200) for one in (shape, other)]
+    here, there = sides
     C = np.linalg.qr(np.eye(40) + 0.05 * np.random.default_rng(2).normal(size=(40, 40)))[0]
     found = map_quality(C, here, there)
     images, rows = here.samples.basis.functions[:, :40] @ C.T, there.samples.basis.functions[:, :40]
@@ -155,120 +115,61 @@ def test_few_samples_of_a_probe_are_a_probe(shape):
     assert subsample(judge, 300) is judge
 
 
-def test_quality_does_not_depend_on_position_or_units(shape):
-    moved = prepare(Mesh(50 * blob(700).vertices[:, [1, 2, 0]] + 7, blob(700).faces), SMALL)
-    truth = np.arange(700)
-    there = shape.basis.truncate(60)
-    C = moved.basis.truncate(60).project(there.functions[truth])
-    found = map_quality(C, sample_for_scoring(shape, 300), sample_for_scoring(moved, 300))
-    assert found.orientation == pytest.approx(1.0, abs=0.02)
-    assert found.distortion < 0.02
-    assert found.descriptors < 1e-3
-
-
 def test_mirror_image_equals_preparing_the_mirrored_mesh(shape):
-    image = mirror_image(shape)
-    assert image.shot is not None
+    image: Any = mirror_image(shape)
     np.testing.assert_allclose(image.shot, shot(image.mesh, 0.15), atol=1e-5)
-    cloud = replace(shape, mesh=Mesh(shape.mesh.vertices, np.zeros((0, 3), dtype=int)))
     with pytest.raises(InvalidInput, match="mirrored"):
-        mirror_image(cloud)
+        mirror_image(replace(shape, mesh=cloud_of(shape.mesh)))
 
 
-def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
-    found = match(shape, other, SMALL)
+@pytest.fixture(scope="module")
+def found(shape, other):
+    return match(shape, other, SMALL)
+
+
+def test_an_asymmetric_shape_is_matched_and_sure(shape, other, found):
     moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
     assert np.linalg.norm(moved, axis=1).mean() < 0.03
-    assert found.verdict == "sure"
-    assert found.confidence is not None
+    assert (found.verdict, found.orientation) == ("sure", "preserving")
     assert found.confidence > 0.6
     assert list(found.score.scores[1:]) == sorted(found.score.scores[1:], reverse=True)
     assert len(found.alternatives) == len(found.score.scores) - 1
-    again = match(shape, other, SMALL)
-    np.testing.assert_array_equal(found.target_to_source, again.target_to_source)
-    assert found.score.scores == again.score.scores
+    assert found.config is SMALL
+    assert (found.fit.raw_target_to_source, found.fit.status) == (None, None)  # a search has no fit of its own
+    assert found.score.initialization.startswith(("signs", "perturbed", "SHOT", "extremities", "self-map"))
 
 
-def test_a_map_of_which_half_is_torn_is_half_as_likely(shape, other, monkeypatch):
-    plain = match(shape, other, SMALL)
-    assert plain.verdict == "sure"
-    assert plain.confidence is not None
+def test_a_match_is_the_same_again_and_with_an_empty_list_of_landmarks(shape, other, found):
+    again = match(shape, other, SMALL, landmarks=[])
+    np.testing.assert_array_equal(again.target_to_source, found.target_to_source)
+    assert (again.score.initialization, again.score.scores) == (found.score.initialization, found.score.scores)
+    assert again.verdict == found.verdict
+
+
+def test_a_map_of_which_half_is_torn_is_half_as_likely(shape, other, found, monkeypatch):
     monkeypatch.setattr(finish, "low_confidence_area", lambda *_: 0.5)
-    found = match(shape, other, SMALL)
-    assert found.confidence == pytest.approx(0.5 * plain.confidence, rel=1e-6)
-    assert found.verdict == "unlikely"
+    torn = match(shape, other, SMALL)
+    assert torn.confidence == pytest.approx(0.5 * found.confidence, rel=1e-6)
+    assert torn.verdict == "unlikely"
     assert match(shape, other, replace(SMALL, registration=None)).verdict == "sure"
 
 
-def test_a_mirrored_shape_is_found_when_asked_for(shape):
-    image = prepare(reflected(blob(650, twist=0.4)), SMALL, name="image")
-    found = match(
-        shape, image, replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="reversing"))
-    )
-    moved = shape.mesh.vertices[found.target_to_source] * [1, 1, -1] - image.mesh.vertices
-    # The two are centred on the mean of slightly different vertices.
-    assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
+@pytest.fixture(scope="module")
+def sphere():
+    return prepare(fibonacci_sphere(650, 0.4), SMALL)
 
 
-def test_a_sphere_is_ambiguous():
-    a, b = (prepare(fibonacci_sphere(n, twist), SMALL) for n, twist in ((700, 0.0), (650, 0.4)))
-    found = match(a, b, SMALL)
+def test_a_sphere_is_ambiguous(sphere):
+    found = match(prepare(fibonacci_sphere(700), SMALL), sphere, SMALL)
     assert found.verdict == "ambiguous"
     assert found.alternatives
 
 
-def test_no_map_between_unlike_shapes_is_called_sure(shape):
+def test_no_map_between_unlike_shapes_is_called_sure(shape, sphere):
     """A body and a sphere: the best of all bad maps may be well ahead of the others."""
-    found = match(shape, prepare(fibonacci_sphere(650, 0.4), SMALL), SMALL)
+    found = match(shape, sphere, SMALL)
     assert found.verdict in ("likely", "ambiguous", "unlikely")
-    assert found.confidence is not None
-    assert found.confidence < 0.6
-
-
-def test_a_verdict_follows_the_score_and_the_margin():
-    numbers = SCORE.calibration
-    middle = numbers.middle
-    good, bad = middle + 6, middle - 6
-    assert verdict(good, 6.0) == "sure"
-    assert verdict(good, 0.0) == "ambiguous"
-    assert verdict(bad, np.inf) == "unlikely"
-    assert verdict(middle + 0.1, np.inf) == verdict(middle + 2, np.inf) == "likely"
-    assert probability(middle, np.inf) == pytest.approx(0.5)
-    assert probability(100.0, 0.0) == pytest.approx(0.5)
-    assert probability(middle + 1 / numbers.slope, np.inf) == pytest.approx(1 / (1 + np.exp(-1)))
-    scores = [probability(s, 0.2) for s in np.linspace(-1e4, 1e4, 50)]
-    margins = [probability(good, m) for m in np.linspace(0, 1, 20)]
-    assert scores == sorted(scores)
-    assert margins == sorted(margins)
-    assert 0 <= scores[0] <= scores[-1] <= 1
-    usual = np.exp(-excess_deformation(good, 1.0))
-    bent = [probability(good, 1.0, usual * more) for more in np.geomspace(0.1, 10, 20)]
-    assert bent == sorted(bent, reverse=True)
-    assert bent[0] == pytest.approx(probability(good, 1.0), rel=0.01)
-    excess = np.exp(numbers.excess_middle - excess_deformation(100.0, 1.0))
-    assert probability(100.0, np.inf, excess) == pytest.approx(0.5)
-    assert verdict(good, 6.0, usual) == "sure"
-    assert verdict(good, 1.0, 4 * usual) == "unlikely"
-
-
-def test_a_part_is_not_called_a_match():
-    pair = partial(1500, rng=0)
-    found = match(pair.source, pair.target, replace(Config(), threads=2, partial=Partial("none")))
-    assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
-    assert found.verdict == "unlikely"
-    assert found.score.scores[0] < SCORE.calibration.middle
-    assert found.confidence is not None
-    assert found.confidence < 0.5
-
-
-def test_left_and_right_of_a_symmetric_body_are_told_apart():
-    pair = symmetric_creature(1500, rng=0)
-    found = match(pair.source, pair.target, replace(Config(), threads=2))
-    assert pair.mirrored is not None
-    right = geodesic_errors(pair.source, found.target_to_source, pair.truth).mean()
-    flipped = geodesic_errors(pair.source, found.target_to_source, pair.mirrored).mean()
-    assert right < 0.05
-    assert right < 0.3 * flipped
+    assert (found.confidence or 1) < 0.6
 
 
 def test_point_clouds_are_matched_without_orientation(shape):
@@ -279,8 +180,7 @@ def test_point_clouds_are_matched_without_orientation(shape):
     found = search_map(shape, cloud, SMALL)
     assert found.functional_map.ndim == 2
     assert found.verdict in ("ambiguous", "unlikely")
-    assert found.confidence is not None
-    assert found.confidence <= 0.5
+    assert (found.confidence or 1) <= 0.5
     with pytest.raises(InvalidInput, match="point cloud"):
         match(shape, cloud, replace(SMALL, search=Search(orientation="reversing")))
 
@@ -293,16 +193,6 @@ def test_candidates_can_be_traded_for_time():
     assert len(set(names)) == len(names) > 8
 
 
-def test_no_landmarks_are_as_none_at_all(shape, other):
-    without, empty = (match(shape, other, SMALL, landmarks=marks) for marks in (None, []))
-    np.testing.assert_array_equal(without.target_to_source, empty.target_to_source)
-    assert (without.score.initialization, without.score.scores, without.verdict) == (
-        empty.score.initialization,
-        empty.score.scores,
-        empty.verdict,
-    )
-
-
 def test_descriptors_of_the_user_take_nothing_away(shape, other):
     """Noise as descriptors: the match is the search all the same, and its map as good."""
     rng = np.random.default_rng(0)
@@ -311,15 +201,6 @@ def test_descriptors_of_the_user_take_nothing_away(shape, other):
     plain, found = match(shape, other, small), match(shape, other, small, descriptors=noise)
     assert found.verdict == plain.verdict
     assert found.score.quality == pytest.approx(plain.score.quality, abs=0.2)
-    assert match(shape.mesh, other.mesh, descriptors=noise).verdict != "unchecked"
-
-
-def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
-    found = match(shape, other, SMALL)
-    assert found.config is SMALL
-    assert found.fit.raw_target_to_source is None
-    assert found.fit.status is None
-    assert found.score.initialization.startswith(("signs", "perturbed", "SHOT", "extremities", "self-map"))
 
 
 def test_progress_never_falls_and_ends_at_one(shape, other):

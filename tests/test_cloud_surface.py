@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import kfmaps
-from conftest import blob, fibonacci_sphere
+from conftest import SMALL, blob, fibonacci_sphere
 from kfmaps import InvalidInput
 from kfmaps.datasets import symmetric_creature, torus
 from kfmaps.geometry.cloud_surface import _fit_quadrics, crust_faces, project_noise, surface_of_cloud
@@ -23,7 +24,6 @@ def noisy(mesh: Mesh, sigma: float) -> np.ndarray:
 
 @pytest.mark.parametrize(("mesh", "euler"), [(blob(900), 2), (torus(1500, rng=0), 0)], ids=["blob", "torus"])
 def test_the_faces_of_a_closed_surface_are_found(mesh: Mesh, euler: int) -> None:
-    """All points, every edge once in each direction, the genus, the area and the side."""
     faces = crust_faces(mesh.vertices)
     n = len(mesh.vertices)
     there = faces.ravel() * n + np.roll(faces, -1, axis=1).ravel()
@@ -40,13 +40,11 @@ def test_the_faces_of_a_closed_surface_are_found(mesh: Mesh, euler: int) -> None
 def test_noisy_points_are_projected_and_too_much_noise_leaves_a_cloud() -> None:
     mesh = fibonacci_sphere(2000)
     spacing = np.sqrt(4 * np.pi / 2000)
-    clean = surface_of_cloud(mesh.vertices)
-    assert clean is not None
+    clean: Any = surface_of_cloud(mesh.vertices)
     np.testing.assert_array_equal(clean.vertices, mesh.vertices)
     for noise, left in (0.2, 0.5), (0.6, 0.35):
         points = noisy(mesh, noise * spacing)
-        found = surface_of_cloud(points)
-        assert found is not None
+        found: Any = surface_of_cloud(points)
         off = [np.abs(np.linalg.norm(x, axis=1) - 1).mean() for x in (points, found.vertices)]
         assert off[1] < left * off[0]
         assert surface_area(found) == pytest.approx(4 * np.pi, rel=0.02)
@@ -88,11 +86,9 @@ def test_what_is_no_closed_surface_stays_a_cloud() -> None:
 
 
 def test_clouds_of_symmetric_bodies_are_matched_without_landmarks() -> None:
-    """As meshes are: the right way round; what is answered is of the clouds as they were given."""
     pair = symmetric_creature(1500, rng=1)
     clouds = Mesh(pair.source.vertices), Mesh(pair.target.vertices)
-    config = replace(kfmaps.Config(), threads=1)
-    found = kfmaps.match(*clouds, config)
+    found = kfmaps.match(*clouds, SMALL)
     errors = kfmaps.geodesic_errors(pair.source, found.target_to_source, pair.truth)
     assert errors.mean() < 0.03
     assert found.verdict == "sure"
@@ -100,10 +96,8 @@ def test_clouds_of_symmetric_bodies_are_matched_without_landmarks() -> None:
     assert found.precise_map is None
     with pytest.raises(InvalidInput, match="point cloud"):
         found.precise()
-    shape = kfmaps.prepare(clouds[0], config)
+    shape = kfmaps.prepare(clouds[0], SMALL)
     assert shape.shot is not None
     assert len(shape.given_mesh.faces) == 0 < len(shape.mesh.faces)
-    assert (
-        len(kfmaps.prepare(clouds[0], replace(config, descriptors=replace(config.descriptors, shot=False))).mesh.faces)
-        == 0
-    )
+    plain = replace(SMALL, descriptors=replace(SMALL.descriptors, shot=False))
+    assert len(kfmaps.prepare(clouds[0], plain).mesh.faces) == 0

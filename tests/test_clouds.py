@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 from scipy.spatial import KDTree
 from scipy.spatial.distance import cdist
 
-from conftest import blob
+from conftest import NO_FACES, blob, cloud_of
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import BasisConfig, Config
 from kfmaps.fmap.confidence import local_confidence
@@ -27,13 +27,8 @@ from kfmaps.shape import prepare
 
 GUARDS = ("kfmaps.geometry.basis", "kfmaps.geometry.geodesics", "kfmaps.geometry.point_cloud")
 
-NO_FACES = np.zeros((0, 3), dtype=np.int64)
 SMALL = replace(Config.single_fit(), basis=BasisConfig(n_eigenfunctions=30), refinement=ZoomOut(10, 40, 10))
 LINE = np.stack([np.linspace(0, 1, 300)] * 3, axis=1)
-
-
-def cloud_of(mesh: Mesh) -> Mesh:
-    return Mesh(mesh.vertices, NO_FACES)
 
 
 def doubled(mesh: Mesh) -> Mesh:

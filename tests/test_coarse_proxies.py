@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.sparse.csgraph import dijkstra
 
+from conftest import NO_FACES, joined, rotation, two_poses
 from kfmaps import datasets
-from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
-from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_vertices
+from kfmaps.geometry.arap import build_arap, rotations
+from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, embedded_deformation, spread_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.registration import nonrigid_icp as nonrigid
@@ -17,12 +18,20 @@ GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarsen", "kfmaps.registratio
 
 @pytest.fixture(scope="module")
 def pair() -> datasets.ExamplePair:
-    return datasets.two_poses(3000, rng=3)
+    return two_poses(3000)
 
 
-def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.ExamplePair) -> None:
-    mesh = unit_area(pair.source)
-    copy = coarse_proxy(mesh, spread_vertices(mesh, 600, np.array([7, 2000])))
+@pytest.fixture(scope="module")
+def mesh(pair: datasets.ExamplePair) -> Mesh:
+    return unit_area(pair.source)
+
+
+@pytest.fixture(scope="module")
+def copy(mesh: Mesh) -> CoarseProxy:
+    return coarse_proxy(mesh, spread_vertices(mesh, 600, np.array([7, 2000])))
+
+
+def test_every_vertex_belongs_to_the_nearest_of_the_copy(mesh: Mesh, copy: CoarseProxy) -> None:
     assert 550 < len(copy.vertices) < 620
     assert np.isin([7, 2000], copy.vertices).all()
     np.testing.assert_array_equal(copy.owner[copy.vertices], np.arange(len(copy.vertices)))
@@ -32,36 +41,29 @@ def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.ExampleP
     np.testing.assert_allclose(away[copy.owner, np.arange(len(mesh.vertices))], away.min(axis=0))
 
 
-def test_a_small_mesh_is_its_own_copy(pair: datasets.ExamplePair) -> None:
-    copy = coarse_proxy(pair.source, spread_vertices(pair.source, 3000))
-    assert copy.mesh is pair.source
+def test_a_small_mesh_is_its_own_copy(mesh: Mesh) -> None:
+    copy = coarse_proxy(mesh, spread_vertices(mesh, 3000))
+    assert copy.mesh is mesh
     np.testing.assert_array_equal(copy.owner, np.arange(3000))
 
 
-def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: datasets.ExamplePair) -> None:
-    mesh = unit_area(pair.source)
+def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(mesh: Mesh) -> None:
     loose = mesh.vertices[[5, 100]] + 1e-4
-    with_loose = Mesh(np.vstack([mesh.vertices, loose]), mesh.faces)
+    with_loose = joined(mesh, Mesh(loose, NO_FACES))
     copy = coarse_proxy(with_loose, spread_vertices(with_loose, 600))
     for vertex in (-2, -1):
         away = np.linalg.norm(copy.mesh.vertices - loose[vertex], axis=1)
         assert copy.owner[vertex] == away.argmin()
 
 
-def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.ExamplePair) -> None:
-    mesh = unit_area(pair.source)
-    copy = coarse_proxy(mesh, spread_vertices(mesh, 600))
-    turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
+def test_a_motion_of_the_copy_is_that_of_the_mesh(mesh: Mesh, copy: CoarseProxy) -> None:
+    turn = rotation(0)
     turns = np.broadcast_to(turn, (len(copy.vertices), 3, 3))
     moved = embedded_deformation(copy, mesh, copy.mesh.vertices @ turn.T + 1.0, turns)
     np.testing.assert_allclose(moved, mesh.vertices @ turn.T + 1.0, atol=1e-12)
 
 
-def test_a_mesh_bends_as_its_copy_does(pair: datasets.ExamplePair) -> None:
-    """Lifted from a coarse copy a smooth bending is met far more closely than the copy is coarse."""
-    mesh = unit_area(pair.source)
-    copy = coarse_proxy(mesh, spread_vertices(mesh, 600))
-
+def test_a_mesh_bends_as_its_copy_does(mesh: Mesh, copy: CoarseProxy) -> None:
     def bent(x: np.ndarray) -> np.ndarray:
         angle = 1.5 * x[:, 1]
         turned = np.cos(angle) * x[:, 0] - np.sin(angle) * x[:, 2], np.sin(angle) * x[:, 0] + np.cos(angle) * x[:, 2]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from conftest import inside_out, joined, sheet, shifted
 from kfmaps import datasets
 from kfmaps.geometry.closest_points import closest_among, closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
@@ -10,36 +11,18 @@ from kfmaps.registration.contact_projection import _REST_WEIGHT, project_with_co
 from kfmaps.registration.deformable import deformable_mesh
 from kfmaps.registration.nonrigid_icp import NonRigid
 
-GUARDS = (
-    "kfmaps.geometry.closest_points",
-    "kfmaps.registration.contact_projection",
-    "kfmaps.registration.deformable",
-    "kfmaps.registration.nonrigid_icp",
-)
+GUARDS = ("kfmaps.geometry.closest_points", "kfmaps.registration")
 
 
-def sheet(height: float, size: int = 9, up: bool = True) -> Mesh:
-    """A square of side 1 with normals up or down."""
-    x, y = np.meshgrid(*2 * [np.linspace(0, 1, size)], indexing="ij")
-    corner = (np.arange(size - 1)[:, None] * size + np.arange(size - 1)).ravel()
-    faces = np.vstack(
-        [
-            np.stack([corner, corner + size, corner + size + 1], axis=1),
-            np.stack([corner, corner + size + 1, corner + 1], axis=1),
-        ]
-    )
-    vertices = np.stack([x.ravel(), y.ravel(), np.full(size**2, height)], axis=1)
-    return Mesh(vertices, faces if up else faces[:, ::-1])
-
-
-def both(one: Mesh, other: Mesh) -> Mesh:
-    return Mesh(np.vstack([one.vertices, other.vertices]), np.vstack([one.faces, other.faces + len(one.vertices)]))
+def square(height: float) -> Mesh:
+    """One of side 1 whose normals are up."""
+    return shifted(sheet(*2 * [np.linspace(0, 1, 9)]), 0, 0, height)
 
 
 def test_the_normal_tells_sides_apart_that_nearly_touch() -> None:
     """Two sheets face each other 0.004 apart, and the target's has gone 0.003 too far: halfway through and beyond."""
-    source = both(sheet(0.0), sheet(0.004, up=False))
-    target = sheet(0.003)
+    source = joined(square(0.0), inside_out(square(0.004)))
+    target = square(0.003)
     n = len(target.vertices)
     nowhere = np.zeros(n, dtype=np.int64)
     found = project_with_contact(nowhere, deformable_mesh(source), source.vertices, target, vertex_normals(target))
@@ -52,11 +35,11 @@ def test_the_normal_tells_sides_apart_that_nearly_touch() -> None:
 @pytest.mark.parametrize("mine", [0, 1])
 def test_the_map_tells_parts_apart_that_lie_on_each_other(mine: int) -> None:
     """Far apart at rest, 0.002 and of like normals when bent; the map may be off by half of the way at rest."""
-    one = sheet(0.0)
+    one = square(0.0)
     n = len(one.vertices)
-    rest = both(one, Mesh(one.vertices + np.array([3.0, 0, 0]), one.faces))
-    x = both(one, sheet(0.002)).vertices
-    target = sheet(0.0005 if mine else 0.0015)  # nearer to the other one
+    rest = joined(one, shifted(one, 3.0, 0, 0))
+    x = joined(one, square(0.002)).vertices
+    target = square(0.0005 if mine else 0.0015)  # nearer to the other one
     off = (np.arange(n) // 9 + 4) % 9 * 9 + np.arange(n) % 9  # along the sheet
     body, normals = deformable_mesh(rest), vertex_normals(target)
     found = project_with_contact(mine * n + off, body, x, target, normals)
@@ -104,7 +87,6 @@ def hairpin(gap: float) -> Mesh:
 
 
 def test_arms_that_sink_into_each_other_keep_their_points() -> None:
-    """An open hairpin bent onto a closed one, begun with the true map: no vertex lands on the other arm."""
     rest, closed = hairpin(0.4), hairpin(-0.02)
     found = NonRigid(n_levels=2, steps=3)(rest, closed, np.arange(len(rest.vertices)))
     plain = closest_points(closed.vertices, found.vertices, rest.faces)

@@ -1,6 +1,7 @@
 """ZoomOut that looks at descriptors: it is plain ZoomOut without them, and settles symmetries with them."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,9 +67,8 @@ def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
 def test_a_guide_is_scaled_common_and_short():
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=(200, 50)) * 7, rng.normal(size=(150, 50)) * 7
-    found, short = descriptor_guidance(a, b, dimensions=50), descriptor_guidance(a, b)
-    assert found is not None
-    assert short is not None
+    guides: Any = descriptor_guidance(a, b, dimensions=50), descriptor_guidance(a, b)
+    found, short = guides
     before, after = np.vstack([a, b]), np.vstack([found.source, found.target])
     i, j = rng.permutation(350)[:340].reshape(2, 170)
     ratio = ((before[i] - before[j]) ** 2).sum(axis=1) / ((after[i] - after[j]) ** 2).sum(axis=1)
@@ -82,11 +82,9 @@ def test_a_guide_is_scaled_common_and_short():
 def test_some_rows_tell_the_directions_of_all(monkeypatch):
     rng = np.random.default_rng(5)
     source, target = (rng.normal(size=(n, 6)) * [3.0, 2.0, 1.5, 0.1, 0.1, 0.1] + 1.0 for n in (900, 700))
-    every = descriptor_guidance(source, target, 3)
+    every: Any = descriptor_guidance(source, target, 3)
     monkeypatch.setattr("kfmaps.fmap.descriptor_guidance._DIRECTION_ROWS", 400)
-    some = descriptor_guidance(source, target, 3)
-    assert every is not None
-    assert some is not None
+    some: Any = descriptor_guidance(source, target, 3)
 
     def distances(found):
         return ((found.target[:, None] - found.source[None]) ** 2).sum(axis=2)
@@ -99,10 +97,8 @@ def test_descriptors_in_single_precision_guide_as_well():
     """Sums over many rows of numbers far from their mean lose it in single precision: they are in double."""
     rng = np.random.default_rng(0)
     source, target = (4 + rng.normal(size=(n, 3)) * [1.0, 0.6, 0.3] for n in (300_000, 200_000))
-    exact = descriptor_guidance(source, target)
-    single = descriptor_guidance(source.astype(np.float32), target.astype(np.float32))
-    assert exact is not None
-    assert single is not None
+    exact: Any = descriptor_guidance(source, target)
+    single: Any = descriptor_guidance(source.astype(np.float32), target.astype(np.float32))
     for a, b in ((exact.source, single.source), (exact.target, single.target)):
         turned = np.sign((a * b).sum(axis=0))
         np.testing.assert_allclose(b * turned, a, atol=3e-6)

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conftest import blob
-from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
+from conftest import blob, small_fit
+from kfmaps.config import NystromConfig, Weights
 from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG
 from kfmaps.fmap.zoomout import ZoomOut
@@ -20,12 +20,8 @@ torch = pytest.importorskip("torch")
 DEVICES = ["torch", *(["cuda"] if torch.cuda.is_available() else [])]
 
 CONFIG = replace(
-    Config.single_fit(),
-    basis=BasisConfig(n_eigenfunctions=30),
-    descriptors=DescriptorConfig(n_spectral=40, n_eigenfunctions=60, shot=False),
+    small_fit(30, 40, 60, 80, solver=CG(1e-10, 2000), refinement=ZoomOut(20, 60, 10, samples=200), registration=None),
     nystrom=NystromConfig(samples=80, rtol=1e-8),
-    solver=CG(1e-10, 2000),
-    refinement=ZoomOut(20, 60, 10, samples=200),
 )
 
 VARIANTS = {
@@ -67,7 +63,6 @@ def test_pytorch_agrees_with_numpy(name, where, pair):
 
 
 def test_the_work_is_done_on_the_device(pair, monkeypatch):
-    """The solver, the largest part, sees tensors."""
     seen = []
     from kfmaps.fmap import minimize as pipeline
 

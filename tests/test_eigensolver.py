@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import robust_laplacian
 from scipy.linalg import eigh
-from scipy.sparse import block_diag, csr_array, diags_array, eye_array, kron
-from scipy.sparse.linalg import eigsh, splu
+from scipy.sparse import block_diag, csr_array, eye_array, kron
+from scipy.sparse.linalg import splu
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, NotConverged
@@ -77,30 +77,24 @@ def test_pairs_solve_the_pencil(n: int) -> None:
     np.testing.assert_allclose(pairs.residuals, scaled, rtol=1e-3)
     assert np.all(np.diff(pairs.values) >= 0)
     assert pairs.values[0] >= 0
+    assert (pairs.vectors[np.abs(pairs.vectors).argmax(axis=0), np.arange(50)] > 0).all()  # signs are fixed
 
 
-def test_block_agrees_with_scipy(shape: tuple[csr_array, np.ndarray]) -> None:
-    stiffness, mass = shape
-    with one_blas_thread():
-        reference = np.sort(eigsh(stiffness, 60, M=diags_array(mass), sigma=-0.1)[0])
-    pairs = smallest_eigenpairs(stiffness, mass, 60)
-    np.testing.assert_allclose(pairs.values, reference, rtol=1e-9, atol=1e-9)
-
-
-def test_twenty_equal_components_give_every_eigenvalue_twenty_times() -> None:
+@pytest.mark.parametrize(("k", "tolerance", "off"), [(50, 1e-10, 1e-8), (100, 1e-10, 1e-8), (50, 1e-2, 1e-3)])
+def test_twenty_equal_components_give_every_eigenvalue_twenty_times(k: int, tolerance: float, off: float) -> None:
     # A block of eight sees eight copies of each: the others come from the restarts.
     stiffness, mass = operators(unit_area(blob(80)))
     one = eigh(stiffness.toarray(), np.diag(mass), eigvals_only=True)
     copies = csr_array(block_diag([stiffness] * 20))
-    for k in (50, 100):
-        pairs = smallest_eigenpairs(copies, np.tile(mass, 20), k)
-        np.testing.assert_allclose(pairs.values, np.repeat(one, 20)[:k], rtol=1e-8, atol=1e-8)
+    pairs = smallest_eigenpairs(copies, np.tile(mass, 20), k, tolerance=tolerance)
+    np.testing.assert_allclose(pairs.values, np.repeat(one, 20)[:k], rtol=off, atol=off)
 
 
-def test_sphere_has_multiplets() -> None:
-    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64)
+@pytest.mark.parametrize("tolerance", [1e-10, 1e-2])
+def test_sphere_has_multiplets(tolerance: float) -> None:
+    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64, tolerance=tolerance)
     degree = np.repeat(np.arange(8), 2 * np.arange(8) + 1)
-    np.testing.assert_allclose(pairs.values, degree * (degree + 1) * 4 * np.pi, rtol=0.02, atol=1e-9)
+    np.testing.assert_allclose(pairs.values, degree * (degree + 1) * 4 * np.pi, rtol=0.02, atol=0.1 * tolerance)
 
 
 def test_lanczos_finds_more_copies_than_its_block_is_wide() -> None:
@@ -127,20 +121,18 @@ def test_orderings_agree(shape: tuple[csr_array, np.ndarray], monkeypatch: pytes
     np.testing.assert_allclose(one.vectors, other.vectors, atol=1e-6)
 
 
-def test_threads_change_no_bit(shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_threads_change_no_bit_and_the_seed_nothing_but_rounding(
+    shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(eigensolver, "THREADED", 0)
     monkeypatch.setattr(_lanczos, "_ROWS", 128)
-    with limit_threads(1):
-        one = smallest_eigenpairs(*shape, 30)
-    with limit_threads(3):
-        three = smallest_eigenpairs(*shape, 30)
+    found = []
+    for threads, seed in ((1, 0), (3, 0), (1, 1)):
+        with limit_threads(threads):
+            found.append(smallest_eigenpairs(*shape, 30, rng=seed))
+    one, three, other = found
     np.testing.assert_array_equal(one.values, three.values)
     np.testing.assert_array_equal(one.vectors, three.vectors)
-
-
-def test_seed_decides_nothing_but_rounding(shape: tuple[csr_array, np.ndarray]) -> None:
-    one, same, other = (smallest_eigenpairs(*shape, 30, rng=r) for r in (0, 0, 1))
-    np.testing.assert_array_equal(one.vectors, same.vectors)
     np.testing.assert_allclose(one.vectors, other.vectors, atol=1e-6)  # signs included
 
 

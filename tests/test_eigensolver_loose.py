@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import robust_laplacian
-from scipy.linalg import eigh
-from scipy.sparse import block_diag, csr_array
+from scipy.sparse import csr_array
 
-from conftest import blob, fibonacci_sphere
+from conftest import blob
 from kfmaps import shape as prepared
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.eigen import eigensolver as pencil
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
-from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.mesh import unit_area
+from test_eigensolver import operators
 
 GUARDS = ("kfmaps.geometry.eigen",)
-
-
-def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:
-    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
-    return csr_array(stiffness), mass.diagonal()
 
 
 def test_loose_pairs_are_nearly_the_exact_ones() -> None:
@@ -44,20 +38,6 @@ def test_what_is_told_of_the_progress_ends_near_one(k: int, tolerance: float) ->
     smallest_eigenpairs(*operator, k, tolerance=tolerance, progress=told.append)
     assert 0.7 < told[-1] < 0.99
     assert len(set(told)) == len(told)
-
-
-def test_loose_search_misses_no_copies() -> None:
-    stiffness, mass = operators(unit_area(blob(80)))
-    one = eigh(stiffness.toarray(), np.diag(mass), eigvals_only=True)
-    copies = csr_array(block_diag([stiffness] * 20))
-    pairs = smallest_eigenpairs(copies, np.tile(mass, 20), 50, tolerance=1e-2)
-    np.testing.assert_allclose(pairs.values, np.repeat(one, 20)[:50], rtol=1e-3, atol=1e-3)
-
-
-def test_loose_multiplets_of_a_sphere() -> None:
-    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64, tolerance=1e-2)
-    degree = np.repeat(np.arange(8), 2 * np.arange(8) + 1)
-    np.testing.assert_allclose(pairs.values, degree * (degree + 1) * 4 * np.pi, rtol=0.02, atol=1e-3)
 
 
 def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,12 +1,15 @@
 """Tips of limbs, pairings of them, and how far a shape must bend: evidence for bodies of different proportions."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from conftest import SMALL, cloud_of, inside_out, reordered, rotation, sheet
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
+from kfmaps.config import Search
 from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.geodesic_graph import geodesic_graph
@@ -27,14 +30,12 @@ from kfmaps.matching.initial_maps import extremity_inits, paired_map
 from kfmaps.matching.quality import mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, by_preference, ranking
 from kfmaps.matching.sample_pair import two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import find_self_maps
 from kfmaps.registration.alternating_registration import proxy_pair
 from kfmaps.registration.evidence import _MAX_ENERGY, _MIN_ENERGY, PATIENT, coarse_copy, deform
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
-from test_search import SMALL
 
 GUARDS = ("kfmaps.matching", "kfmaps.registration.evidence")
 
@@ -56,6 +57,15 @@ def on(creature, probes):
     return two_level_samples(creature[0], creature[1], probes)
 
 
+SIGNS = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
+
+
+@pytest.fixture
+def itself(creature, probes):
+    """Copies of one creature, to be bent onto each other."""
+    return proxy_pair(creature[0], creature[0], (probes[0].copy, probes[0].copy))
+
+
 def identity(count):
     return ExtremityMatch(np.arange(count), np.arange(count))
 
@@ -75,11 +85,8 @@ def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
 def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
     shape, one = creature[0], probes[0]
     order = np.random.default_rng(0).permutation(len(shape.mesh.vertices))
-    number = np.argsort(order)
-    rotation = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
-    rotation *= np.sign(np.linalg.det(rotation))
-    moved = Mesh((shape.mesh.vertices @ rotation.T + 5.0)[order], number[shape.mesh.faces])
-    rows = number[one.samples.vertices]
+    moved = reordered(Mesh(shape.mesh.vertices @ rotation(1).T + 5.0, shape.mesh.faces), order)
+    rows = np.argsort(order)[one.samples.vertices]
     mass = np.ones(len(one.distances))
     before = extremities(one.distances, mass, shape.mesh, one.samples.vertices)
     after = extremities(one.distances, mass, moved, rows)
@@ -89,20 +96,15 @@ def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
 
 
 def test_turn_is_the_sine_between_two_directions():
-    x, y = np.meshgrid(np.linspace(0, 1, 12), np.linspace(0, 1, 12))
-    sheet = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
-    corner = (np.arange(11)[:, None] * 12 + np.arange(11)).ravel()
-    faces = np.vstack(
-        [np.stack([corner, corner + 1, corner + 12], 1), np.stack([corner + 1, corner + 13, corner + 12], 1)]
-    )
+    flat = sheet(*2 * [np.linspace(0, 1, 12)])
     angle = 0.7
-    slanted = sheet[:, 0] * np.cos(angle) + sheet[:, 1] * np.sin(angle)
-    found = _gradient_cross(Mesh(sheet, faces), np.stack([sheet[:, 0], slanted]))
+    x, y, _ = flat.vertices.T
+    functions = np.stack([x, x * np.cos(angle) + y * np.sin(angle)])
+    found = _gradient_cross(flat, functions)
     assert found[0, 1] == pytest.approx(np.sin(angle))
     assert found[1, 0] == pytest.approx(-np.sin(angle))
-    mirrored = _gradient_cross(Mesh(sheet, faces[:, ::-1]), np.stack([sheet[:, 0], slanted]))
-    assert mirrored == pytest.approx(-found)
-    assert not _gradient_cross(Mesh(sheet, faces[:0]), np.stack([sheet[:, 0], slanted])).any()
+    assert _gradient_cross(inside_out(flat), functions) == pytest.approx(-found)
+    assert not _gradient_cross(cloud_of(flat), functions).any()
 
 
 def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
@@ -117,7 +119,6 @@ def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
 
 
 def test_the_true_pairing_is_among_the_first(creature, probes, on):
-    """Tips in which the truth nearly agrees, most of them, among the pairings that are refined."""
     found = match_extremities(on.coarse.source, on.coarse.target, on.coarse.descriptor_cost)
     a, b = probes[0], probes[1]
     truth = creature[2]
@@ -137,8 +138,7 @@ def test_equal_shapes_pair_their_tips_with_themselves(probes):
     assert np.array_equal(first.source, first.target)
     assert len(first.source) == len(one.extremities.points)
     everywhere = np.arange(len(one.positions))
-    back = match_of_map(everywhere, one, one)
-    assert back is not None
+    back: Any = match_of_map(everywhere, one, one)
     assert np.array_equal(back.source, back.target)
     assert len(back.source) == len(one.extremities.points)
     assert match_of_map(np.zeros_like(everywhere), one, one) is None
@@ -202,46 +202,22 @@ def test_each_map_may_have_evidence_of_its_own(on):
         alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.coarse.matching_cost(4.0, 0.0, 30.0, [pairing]))
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
-    speaks = on.coarse.matching_cost(0.0, 0.0, 2.0, pairs[:1])
-    assert speaks is not None
+    speaks: Any = on.coarse.matching_cost(0.0, 0.0, 2.0, pairs[:1])
     assert speaks[0] == pytest.approx(
         2 * extremity_cost(on.coarse.source.extremities, on.coarse.target.extremities, pairs[0]), abs=1e-5
     )
 
 
-def test_a_shape_bends_least_onto_itself(creature, probes):
-    shape, one = creature[0], probes[0]
-    both = proxy_pair(shape, shape, (one.copy, one.copy))
-    k = 40
-    signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    assert deform(np.eye(k), both).energy == _MIN_ENERGY
-    assert _MIN_ENERGY < 0.05 < deform(signs, both).energy <= _MAX_ENERGY
+def test_a_shape_bends_least_onto_itself(itself):
+    """Strain is of all places and not of the worst: the mean of logarithms is below the logarithm of the mean."""
+    kept, torn = (deform(C, itself) for C in (np.eye(40), SIGNS))
+    assert kept.energy == _MIN_ENERGY < 0.05 < torn.energy <= _MAX_ENERGY
+    assert kept.strain == pytest.approx(np.log(_MIN_ENERGY), abs=1e-6)
+    assert kept.strain < torn.strain < np.log(torn.energy)
 
 
 def test_limbs_of_different_lengths_leave_no_symmetry(probes):
     assert find_self_maps(subsample(probes[1], 400), 100) == []
-
-
-def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
-    shape, one = creature[0], probes[0]
-    both = proxy_pair(shape, shape, (one.copy, one.copy))
-    k = 40
-    signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    kept, torn = (deform(C, both) for C in (np.eye(k), signs))
-    assert kept.strain == pytest.approx(np.log(_MIN_ENERGY), abs=1e-6)
-    assert kept.strain < torn.strain < np.log(_MAX_ENERGY)
-    # The mean of logarithms is below the logarithm of the mean.
-    assert torn.strain < np.log(torn.energy)
-
-
-def test_what_is_bent_and_strained_less_is_the_likelier():
-    judgement = Quality(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
-    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, deformation_energy=0.15)
-    assert replace(one, strain=0.1).score == pytest.approx(one.score - 0.1 * SCORE.w_strain)
-    assert replace(one, deformation_energy=0.3).score == pytest.approx(one.score - 5 * np.log(2))
-    worse = replace(one, quality=replace(judgement, extremity_descriptor_error=0.25))
-    assert worse.quality.score == one.quality.score
-    assert worse.score == pytest.approx(one.score - 2.0)
 
 
 def test_copies_have_no_loose_points(creature):
@@ -272,20 +248,15 @@ def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
 
 
 def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
-    turned = mirror_samples(probes[0])
-    assert turned.copy is not None
+    turned: Any = mirror_samples(probes[0])
     assert turned.mirrored
     assert np.array_equal(turned.extremities.gradient_cross, -probes[0].extremities.gradient_cross)
     assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
 
 
 def test_tips_can_be_left_out(creature):
-    assert SMALL.search is not None
-    plain = replace(SMALL, search=replace(SMALL.search, match_extremities=False))
-    source, target = creature[:2]
-    names = search_map(source, target, plain, rng=0).initialization, search_map(source, target, SMALL, rng=0)
-    assert not names[0].startswith("extremities")
-    assert names[1].confidence is not None
+    plain = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, match_extremities=False))
+    assert not search_map(creature[0], creature[1], plain, rng=0).initialization.startswith("extremities")
 
 
 def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
@@ -296,21 +267,18 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     found = search_map(source, mirrored, SMALL, rng=0)
     assert found.orientation == "reversing"
     assert found.verdict == "sure"
-    assert SMALL.search is not None
-    kept = search_map(source, mirrored, replace(SMALL, search=replace(SMALL.search, orientation="preserving")), rng=0)
+    preserving = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="preserving"))
+    kept = search_map(source, mirrored, preserving, rng=0)
     assert kept.orientation == "preserving"
     assert kept.verdict != "sure"
-    assert search_map(source, other, SMALL, rng=0).orientation == "preserving"
 
 
 def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monkeypatch):
     """The other direction is believed then; only a map of which both fail has the most."""
-    shape = creature[0]
 
     def energy() -> float:  # a pair keeps what it has found
-        return deform(signs, proxy_pair(shape, shape, (probes[0].copy, probes[0].copy))).energy
+        return deform(SIGNS, proxy_pair(creature[0], creature[0], (probes[0].copy, probes[0].copy))).energy
 
-    signs = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
     usual, fit = energy(), NonRigid.bent
     failing = [True, False]
 
@@ -325,14 +293,13 @@ def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monke
     assert energy() == _MAX_ENERGY
 
 
-def test_a_map_that_is_judged_again_is_bent_once(creature, probes, monkeypatch):
-    shape, fits = creature[0], []
-    both = proxy_pair(shape, shape, (probes[0].copy, probes[0].copy))
+def test_a_map_that_is_judged_again_is_bent_once(itself, monkeypatch):
+    fits = []
     kept = lambda _self, pair, points: (fits.append(points) or pair.body.mesh.vertices, 0.0)  # noqa: E731
     monkeypatch.setattr(NonRigid, "bent", kept)
-    assert deform(np.eye(40), both) == deform(np.eye(40), both)
+    assert deform(np.eye(40), itself) == deform(np.eye(40), itself)
     assert len(fits) == 2  # forth and back
-    deform(np.eye(40), both, PATIENT)
+    deform(np.eye(40), itself, PATIENT)
     assert len(fits) == 4
     assert all(fits[i] is fits[i + 2] for i in range(2))  # and its points are sought once
 

@@ -25,7 +25,6 @@ from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
-from kfmaps.fmap.losses import _LOSSES, Loss
 from kfmaps.fmap.multiplication_operators import truncate_features, truncate_operators
 from kfmaps.fmap.nearest import nearest
 from kfmaps.fmap.solvers import CG, solve
@@ -40,28 +39,7 @@ from kfmaps.kernels.kernels import Gaussian, Laplacian, _squared_distances, reso
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.kernels.nystrom import nystrom
 
-GUARDS = (
-    "kfmaps.descriptors.spectral",
-    "kfmaps.fmap.approximate_nearest",
-    "kfmaps.fmap.confidence",
-    "kfmaps.fmap.convert",
-    "kfmaps.fmap.descriptor_guidance",
-    "kfmaps.fmap.evaluate",
-    "kfmaps.fmap.losses",
-    "kfmaps.fmap.multiplication_operators",
-    "kfmaps.fmap.nearest",
-    "kfmaps.fmap.refine",
-    "kfmaps.fmap.zoomout",
-    "kfmaps.fmap.solvers",
-    "kfmaps.fmap.terms",
-    "kfmaps.geometry.basis",
-    "kfmaps.geometry.geodesics",
-    "kfmaps.geometry.mesh",
-    "kfmaps.geometry.sampling",
-    "kfmaps.kernels.kernels",
-    "kfmaps.kernels.landmark_selection",
-    "kfmaps.kernels.nystrom",
-)
+GUARDS = ("kfmaps.descriptors.spectral", "kfmaps.fmap", "kfmaps.geometry", "kfmaps.kernels")
 
 
 def with_values(values: list[float]) -> Basis:
@@ -113,7 +91,6 @@ def test_farthest_points_of_a_small_pool_are_those_of_all_rows_where_there_are_n
 
 
 def test_areas_are_areas():
-    """Of a right triangle, of its corners, and of anything once it is scaled to one."""
     triangle = Mesh(np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]]), np.array([[0, 1, 2]]))
     assert face_areas(triangle) == pytest.approx(6)
     tilted = np.array([[0.3, -1.0, 2.0], [1.1, 0.4, -0.7], [-0.6, 2.2, 0.9]])
@@ -145,7 +122,6 @@ def test_the_samples_embedding_is_a_distance(unit, rng):
 
 
 def test_the_samples_embedding_is_that_of_greens_function(small_mesh, small_basis):
-    """On a path of two functions: eigenvalues enter by their inverse."""
     embedding = _embedded(small_basis)[1]
     found = np.linalg.norm(embedding * np.sqrt(small_basis.mass)[:, None], axis=0)
     np.testing.assert_allclose(found * small_basis.eigenvalues[1:], 1, rtol=1e-9)
@@ -188,11 +164,8 @@ def test_pairs_are_searched_no_farther_than_they_need(monkeypatch):
 )
 def test_the_range_of_the_spectrum_starts_near_weyls_second_eigenvalue(values, low, high):
     assert _spectral_range(with_values(values)) == pytest.approx((low, high))
-
-
-def test_the_range_is_common_to_both_shapes():
     a, b = with_values([0, 5, 900]), with_values([0, 9, 700])
-    assert _spectral_range(a, b) == _spectral_range(b, a) == pytest.approx((9, 700))
+    assert _spectral_range(a, b) == _spectral_range(b, a) == pytest.approx((9, 700))  # common to both
 
 
 def test_heat_has_gone_from_the_last_function_first_and_from_the_lowest_last():
@@ -223,7 +196,6 @@ def test_a_wave_of_one_function_is_a_bell_of_width_sigma():
 
 
 def test_heat_is_all_there_and_decays_as_each_function_does(rng):
-    """Over the area the signature sums to the trace of the heat kernel."""
     basis, times = random_basis(60, 9, rng), np.array([0.02, 0.3, 1.0])
     trace = np.exp(-times[None, :] * basis.eigenvalues[:, None]).sum(axis=0)
     np.testing.assert_allclose(basis.mass @ heat_signature(basis, times), trace)
@@ -263,7 +235,6 @@ def test_the_laplacian_term_is_the_same_from_either_side():
 
 
 def test_a_point_in_parts_condenses_as_a_whole(rng):
-    """What features count for is their share of the area, not of the points."""
     source, target = random_basis(40, 6, rng), random_basis(30, 6, rng)
     F_s, F_t = rng.normal(size=(40, 9)), rng.normal(size=(30, 9))
     F_s[:5] *= 2
@@ -288,22 +259,8 @@ def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, r
         assert part == pytest.approx(lost[11 - len(kept[0])] if len(kept[0]) < 12 else 0, abs=1e-12)
 
 
-@pytest.mark.parametrize("delta", [0.1, 3.0])
-def test_losses_start_at_zero_and_have_no_steps(delta):
-    for name in _LOSSES:
-        loss = Loss(name, delta)
-        e = np.linspace(0, 4 * delta**2, 4001)
-        assert loss.value(e[:1])[0] == pytest.approx(0, abs=3e-3 * delta**2)
-        assert np.diff(loss.value(e)).max() <= loss.weights(e).max() * e[1] * (1 + 1e-9)
-        small = np.array([1e-4 * delta**2])
-        if name in ("huber", "geman"):
-            assert loss.value(small)[0] == pytest.approx(small[0], rel=1e-3)
-        assert (np.diff(loss.value(e)) >= 0).all()
-
-
 @pytest.mark.parametrize("unit", [1e-9, 1e6])
 def test_conjugate_gradients_know_no_units(unit, rng):
-    """The tolerance is relative to the right-hand side."""
     values, b = rng.uniform(1, 50, 30), rng.normal(size=30)
     one, other = (solve(lambda x: values * x, scale * b, CG(rtol=1e-6)) for scale in (1.0, unit))
     assert one.status == other.status == "converged"
@@ -362,8 +319,7 @@ def test_zoomout_starts_from_the_low_part_of_the_map(small_basis, rng):
 def test_a_guide_weighs_what_it_says_on_a_shape_of_any_size(area, rng):
     """Squared differences of functions are in 1/area; those of the descriptors beside them are too."""
     source, target = (replace(b, mass=area * b.mass / b.mass.sum()) for b in [random_basis(60, 4, rng)] * 2)
-    led = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
-    assert led is not None
+    led: Any = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
     both = np.concatenate(led.embedding_columns(12.0, source, target))
     assert _squared_distances(both, both).mean() * area == pytest.approx(12)
 
@@ -389,17 +345,10 @@ def test_the_damping_of_samples_lies_between_least_squares_and_projection(small_
     sizes = [np.linalg.norm(fit_functional_map(points, small_basis, samples, 30, ridge=r) - least) for r in (0.05, 0.2)]
     usual = np.linalg.norm(fit_functional_map(points, small_basis, samples, 30) - least)
     assert sizes[0] < usual < sizes[1] < np.linalg.norm(projected - least)
-
-
-def test_the_damping_of_samples_costs_no_size(small_basis, rng):
-    """Where the samples' functions are orthonormal it changes nothing."""
-    everywhere = SampledBasis(small_basis.eigenvalues, small_basis.functions, small_basis.mass)
-    points = rng.integers(0, len(small_basis.mass), len(small_basis.mass))
-    np.testing.assert_allclose(
-        fit_functional_map(points, small_basis, everywhere, 20),
-        fit_functional_map(points, small_basis, small_basis, 20),
-        atol=1e-9,
-    )
+    # Where the samples' functions are orthonormal it changes nothing.
+    everywhere, points = SampledBasis(*vars(small_basis).values()), rng.integers(0, 400, 400)
+    one, other = (fit_functional_map(points, small_basis, b, 20) for b in (everywhere, small_basis))
+    np.testing.assert_allclose(one, other, atol=1e-9)
 
 
 def test_the_map_of_zoomout_on_samples_is_that_of_all_points(small_basis):

@@ -1,4 +1,4 @@
-"""Laws of distances along a surface."""
+"""Laws of distances along a surface, and between points: exact near by, hardly longer elsewhere."""
 
 from __future__ import annotations
 
@@ -7,11 +7,19 @@ import pytest
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import Delaunay
 
-from conftest import blob, fibonacci_sphere
+from conftest import NO_FACES, blob, cloud_of, fibonacci_sphere, joined, reordered, sheet, shifted
 from kfmaps._arrays import InvalidInput
+from kfmaps.geometry import geodesics
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import farthest_geodesic, geodesic_distance_pairs, geodesic_distances
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.geodesics import (
+    _FULL_SEARCHES,
+    _NEARBY,
+    farthest_geodesic,
+    geodesic_distance_pairs,
+    geodesic_distances,
+    pairwise_geodesics,
+)
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 GUARDS = ("kfmaps.geometry.geodesic_graph", "kfmaps.geometry.geodesics")
 
@@ -34,8 +42,7 @@ def everywhere(mesh: Mesh) -> np.ndarray:
 def two_pieces() -> Mesh:
     """Two blobs far apart, and a vertex of no face between them."""
     one = blob(120)
-    vertices = np.concatenate([one.vertices, [[10, 0, 0]], one.vertices + 20.0])
-    return Mesh(vertices, np.concatenate([one.faces, one.faces + 121]))
+    return joined(one, Mesh(np.array([[10.0, 0, 0]]), NO_FACES), shifted(one, 20, 20, 20))
 
 
 def test_a_plane_is_straight() -> None:
@@ -63,17 +70,13 @@ def test_deeper_unfolding_gives_exact_distances_farther() -> None:
     assert geodesic_graph(mesh, 40).nnz == 60 * 59  # in a convex plane everything sees everything
 
 
-def test_a_fold_is_laid_flat() -> None:
+def test_a_fold_is_laid_flat_and_a_line_that_misses_the_edge_is_none() -> None:
+    book = np.array([[0, 2, 1], [0, 1, 3]])
     for angle in (0.3, 1.5, 3.0):  # between two right-angled triangles over one edge, from a closed book to flat
         wing = np.array([np.cos(angle), 0, np.sin(angle)])
-        vertices = np.array([[0, -1, 0], [0, 1, 0], [1, 0.2, 0], wing - [0, 0.3, 0]])
-        mesh = Mesh(vertices, np.array([[0, 2, 1], [0, 1, 3]]))
+        mesh = Mesh(np.array([[0, -1, 0], [0, 1, 0], [1, 0.2, 0], wing - [0, 0.3, 0]]), book)
         assert geodesic_distances(mesh, [2])[0, 3] == pytest.approx(np.hypot(2, 0.5))
-
-
-def test_a_line_that_misses_the_edge_is_none() -> None:
-    vertices = np.array([[0, 0, 0], [0, 1, 0], [2, -3, 0], [-2, -3, 0]], dtype=float)
-    mesh = Mesh(vertices, np.array([[0, 2, 1], [0, 1, 3]]))
+    mesh = Mesh(np.array([[0, 0, 0], [0, 1, 0], [2, -3, 0], [-2, -3, 0]], dtype=float), book)
     # The straight line from 2 to 3 passes below the edge, outside the surface: the way is by vertex 0.
     assert geodesic_distances(mesh, [2])[0, 3] == pytest.approx(2 * np.hypot(2, 3))
 
@@ -98,15 +101,6 @@ def test_pages_of_a_book() -> None:
     np.testing.assert_allclose(distances, (heights[:, None] + heights) * (1 - np.eye(3)), atol=1e-12)
 
 
-def test_sphere_has_great_circles() -> None:
-    mesh = fibonacci_sphere(1500)
-    exact = np.arccos(np.clip(mesh.vertices[[3, 700]] @ mesh.vertices.T, -1, 1))
-    got = geodesic_distances(mesh, [3, 700])
-    far = exact > 1e-6
-    assert np.abs(got / np.where(far, exact, 1) - 1)[far].mean() < 0.01
-    assert (got[~far] == 0).all()
-
-
 def test_metric() -> None:
     distances = everywhere(blob(150))
     np.testing.assert_allclose(distances, distances.T, rtol=1e-12)
@@ -117,10 +111,8 @@ def test_metric() -> None:
 
 
 def test_scale_and_order_of_vertices() -> None:
-    mesh = blob(200)
-    order = np.random.default_rng(5).permutation(200)
-    number = np.argsort(order)
-    other = Mesh(5 * mesh.vertices[order], number[mesh.faces])
+    mesh, order = blob(200), np.random.default_rng(5).permutation(200)
+    other = reordered(Mesh(5 * mesh.vertices, mesh.faces), order)
     one = geodesic_distances(mesh, order[:10])
     np.testing.assert_allclose(geodesic_distances(other, np.arange(10)) / 5, one[:, order], rtol=1e-6)
 
@@ -162,23 +154,20 @@ def test_pairs_are_entries_of_the_matrix() -> None:
 def test_far_pairs_are_found_too() -> None:
     # A hairpin: near in space, far along the surface, so that the first searches fall short.
     length, width = 40, 4
-    x, y = np.meshgrid(np.arange(length), np.arange(width), indexing="ij")
-    i = (np.arange(length - 1)[:, None] * width + np.arange(width - 1)).ravel()
-    faces = np.concatenate([np.stack([i, i + 1, i + width + 1], 1), np.stack([i, i + width + 1, i + width], 1)])
-    turn = np.pi * x / (length - 1)
-    bent = np.stack([0.01 * np.cos(turn), 20 * np.sin(turn), y], axis=2).reshape(-1, 3)
-    mesh = Mesh(bent, faces)
+    flat = sheet(np.linspace(0, np.pi, length), np.arange(width))
+    turn, y, _ = flat.vertices.T
+    mesh = Mesh(np.stack([0.01 * np.cos(turn), 20 * np.sin(turn), y], axis=1), flat.faces)
     a, b = np.arange(width), np.arange(width)[::-1] + (length - 1) * width
     np.testing.assert_array_equal(geodesic_distance_pairs(mesh, a, b), geodesic_distances(mesh, a)[np.arange(width), b])
 
 
 def test_clouds() -> None:
     mesh = fibonacci_sphere(1000)
-    cloud = Mesh(mesh.vertices, np.zeros((0, 3)))
+    cloud = cloud_of(mesh)
     exact = np.arccos(np.clip(mesh.vertices[:2] @ mesh.vertices.T, -1, 1))
     assert np.abs(geodesic_distances(cloud, [0, 1]) - exact).mean() < 0.06 * exact.mean()
     assert len(set(farthest_geodesic(cloud, 30))) == 30
-    assert everywhere(Mesh(np.zeros((1, 3)), np.zeros((0, 3)))).tolist() == [[0.0]]
+    assert everywhere(Mesh(np.zeros((1, 3)), NO_FACES)).tolist() == [[0.0]]
 
 
 def test_farthest_samples_are_the_farthest() -> None:
@@ -217,3 +206,48 @@ def test_bad_input_is_refused() -> None:
     ):
         with pytest.raises(InvalidInput):
             call()
+
+
+MESH = unit_area(blob(1500))
+
+
+@pytest.fixture(scope="module")
+def spread():
+    return farthest_geodesic(MESH, 300, 0)
+
+
+def exact(graph, points):
+    return np.asarray(dijkstra(graph, indices=points))[:, points]
+
+
+def test_near_points_are_exact_and_far_ones_hardly_farther(spread):
+    graph = geodesic_graph(MESH, 1)
+    true, found = exact(graph, spread), pairwise_geodesics(graph, spread)
+    known = true <= _NEARBY
+    known[:_FULL_SEARCHES] = known[:, :_FULL_SEARCHES] = True
+    np.testing.assert_allclose(found[known], true[known], rtol=1e-12)
+    assert (found >= (1 - 1e-6) * true).all()  # paths over others are added in single precision
+    over = (found - true)[~known] / true[~known]
+    assert 0 < over.mean() < 0.005
+    assert over.max() < 0.15
+    assert (found - true).mean() < 1e-3 * true.mean()
+    np.testing.assert_allclose(found, found.T, rtol=1e-12)
+
+
+def test_few_points_are_exact(spread):
+    graph = geodesic_graph(MESH, 1)
+    np.testing.assert_allclose(pairwise_geodesics(graph, spread[:50]), exact(graph, spread[:50]), rtol=1e-12)
+
+
+def test_components_are_infinitely_far_and_none_is_forgotten(monkeypatch):
+    n = len(MESH.vertices)
+    both = joined(MESH, shifted(MESH, 5, 5, 5))
+    points = np.concatenate([np.arange(0, n, 50), n + np.arange(0, n, 50)])
+    monkeypatch.setattr(geodesics, "_FULL_SEARCHES", 10)
+    graph = geodesic_graph(both, 1)
+    true, found = exact(graph, points), pairwise_geodesics(graph, points)
+    np.testing.assert_array_equal(np.isinf(found), np.isinf(true))
+    apart = np.isfinite(true)
+    assert (found[apart] >= (1 - 1e-6) * true[apart]).all()
+    later = np.ix_(points >= n, points >= n)
+    np.testing.assert_allclose(found[later], true[later], rtol=1e-12)

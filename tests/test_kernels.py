@@ -60,17 +60,12 @@ def plain(kernel, x, y):
 
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=repr)
-def test_definition_on_every_library(kernel, asarray, rng):
+def test_definition_and_diagonal_on_every_library(kernel, asarray, rng):
     X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
     wanted = np.array([[plain(kernel, x, y) for y in Y] for x in X])
     np.testing.assert_allclose(to_numpy(kernel_matrix(kernel, asarray(X), asarray(Y))), wanted, rtol=1e-12, atol=1e-13)
-
-
-@pytest.mark.parametrize("kernel", KERNELS, ids=repr)
-def test_diagonal_is_that_of_the_matrix(kernel, asarray, rng):
-    X = asarray(rng.normal(size=(6, 3)))
-    matrix = to_numpy(kernel_matrix(kernel, X, X))
-    np.testing.assert_allclose(to_numpy(kernel_diagonal(kernel, X)), np.diag(matrix), rtol=1e-7, atol=1e-7)
+    diagonal = [plain(kernel, x, x) for x in X]
+    np.testing.assert_allclose(to_numpy(kernel_diagonal(kernel, asarray(X))), diagonal, rtol=1e-7, atol=1e-7)
 
 
 @pytest.mark.parametrize("kernel", POSITIVE, ids=repr)
@@ -78,16 +73,6 @@ def test_positive_semi_definite(kernel, rng):
     X = rng.normal(size=(30, 3))
     values = np.linalg.eigvalsh(kernel_matrix(kernel, X, X))
     assert values[0] > -1e-12 * values[-1]
-
-
-def test_quadratic_polynomial_is_the_inner_product_of_all_products(rng):
-    X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
-
-    def lifted(D):
-        products = np.stack([D[:, i] * D[:, j] for i in range(3) for j in range(3)], axis=1)
-        return np.hstack([np.ones((len(D), 1)), np.sqrt(2) * D, products])
-
-    np.testing.assert_allclose(kernel_matrix(Polynomial(2, 1.0), X, Y), lifted(X) @ lifted(Y).T, rtol=1e-12)
 
 
 def test_squared_distances_survive_a_large_shift(rng):
@@ -103,14 +88,12 @@ def test_scikit_learn_kernels_are_kernels(asarray, rng):
     assert to_numpy(kernel_diagonal(laplacian_kernel, asarray(X))) == pytest.approx(np.ones(6))
 
 
-@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
-@pytest.mark.parametrize("kind", [Gaussian, Laplacian])
-def test_automatic_gamma_is_free_of_scale(kind, scale, rng):
-    X = rng.normal(size=(40, 5))
-    reference = kernel_matrix(resolve_kernel(kind(), X), X, X)
-    np.testing.assert_allclose(
-        kernel_matrix(resolve_kernel(kind(), scale * X), scale * X, scale * X), reference, rtol=1e-6
-    )
+@pytest.mark.parametrize("scale", [1e-3, 1e4])
+@pytest.mark.parametrize("kernel", [Gaussian(), Laplacian(), Metric(Gaussian(), ((1.0, 0.5, 0.0), (0.0, -1.0, 2.0)))])
+def test_automatic_gamma_is_free_of_scale(kernel, scale, rng):
+    X = rng.normal(size=(40, 3))
+    one, other = (kernel_matrix(resolve_kernel(kernel, Y), Y, Y) for Y in (X, scale * X))
+    np.testing.assert_allclose(other, one, rtol=1e-6)
 
 
 def test_automatic_gamma_is_one_over_the_median_squared_distance(rng):
@@ -123,15 +106,9 @@ def test_automatic_gamma_is_one_over_the_median_squared_distance(rng):
     assert inside.b.b.gamma == 3.0
 
 
-def test_identical_descriptors_do_not_break_the_automatic_gamma():
-    kernel: Any = resolve_kernel(Gaussian(), np.ones((5, 2)))
-    assert np.isfinite(kernel.gamma)
-
-
-def test_rounding_between_equal_descriptors_sets_no_width():
-    """However large they are."""
-    rounded = 1e4 * (1 + 5e-13 * (np.arange(6) % 2))
-    kernel: Any = resolve_kernel(Gaussian(), rounded[:, None], 0.7)
+@pytest.mark.parametrize("X", [np.ones((5, 2)), 1e4 * (1 + 5e-13 * (np.arange(6)[:, None] % 2))])
+def test_equal_descriptors_and_rounding_between_them_set_no_width(X):
+    kernel: Any = resolve_kernel(Gaussian(), X, 0.7)
     assert kernel.gamma == 0.7
 
 
@@ -151,6 +128,12 @@ def test_how_many_descriptors_a_kernel_takes():
         lambda: Polynomial(0),
         lambda: Polynomial(2, -1.0),
         lambda: Tanh(0.0),
+        lambda: Metric(Gaussian(1.0), ()),
+        lambda: Metric(Gaussian(1.0), ((1.0, 2.0), (1.0,))),
+        lambda: Metric(Gaussian(1.0), (1.0, 2.0)),  # pyright: ignore[reportArgumentType]
+        lambda: Metric(Gaussian(1.0), ((float("nan"),),)),
+        lambda: Metric(Gaussian(1.0), (("x", 1.0),)),  # pyright: ignore[reportArgumentType]
+        lambda: Metric(Gaussian(1.0), ((1.0, 2.0),))(np.zeros((3, 3)), np.zeros((3, 3))),
     ],
 )
 def test_impossible_parameters_are_refused(make):
@@ -171,31 +154,6 @@ def test_bad_kernels_are_refused(rng):
 
 
 def test_equal_rows_are_at_no_distance(rng):
-    """So that the Laplacian kernel, whose root magnifies rounding, is 1 between a point and itself."""
     X = rng.normal(size=(50, 7)) + 100
     values = np.diag(kernel_matrix(Laplacian(3.0), X, X[:, :]))
     np.testing.assert_array_equal(values, 1.0)
-
-
-def test_automatic_widths_inside_transforming_kernels(rng):
-    """Scaling what goes in, or the metric, changes no value of a kernel of automatic width."""
-    X = rng.normal(size=(20, 3))
-    rows: Any = np.diag((1.0, 0.5, 2.0))
-    wanted = kernel_matrix(resolve_kernel(Metric(Gaussian(), rows), X), X, X)
-    np.testing.assert_allclose(kernel_matrix(resolve_kernel(Metric(Gaussian(), 2 * rows), X), X, X), wanted, rtol=1e-9)
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: Metric(Gaussian(1.0), ()),
-        lambda: Metric(Gaussian(1.0), ((1.0, 2.0), (1.0,))),
-        lambda: Metric(Gaussian(1.0), (1.0, 2.0)),  # pyright: ignore[reportArgumentType]
-        lambda: Metric(Gaussian(1.0), ((float("nan"),),)),
-        lambda: Metric(Gaussian(1.0), (("x", 1.0),)),  # pyright: ignore[reportArgumentType]
-        lambda: Metric(Gaussian(1.0), ((1.0, 2.0),))(np.zeros((3, 3)), np.zeros((3, 3))),
-    ],
-)
-def test_transforming_kernels_refuse_what_does_not_fit(make):
-    with pytest.raises(InvalidInput, match="expected"):
-        make()

@@ -1,25 +1,25 @@
-"""What landmarks do between shapes of other proportions, and how far they back a map."""
+"""What landmarks do between shapes of other proportions, how far they back a map, and which are named as wrong."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import kfmaps
-from conftest import blob
-from kfmaps._threads import limit_threads
-from kfmaps.fmap.convert import to_functional
+from conftest import SMALL, blob, functional_map
+from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, unit_area
 from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.matching import landmark_conflicts, search_result
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching import search_result
 from kfmaps.matching.candidates import rerefine, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.landmark_conflicts import ignore_landmarks, support_of_landmarks
@@ -29,9 +29,9 @@ from kfmaps.matching.landmark_evidence import (
     build_guidance,
 )
 from kfmaps.matching.quality import sample_for_scoring
-from kfmaps.matching.ranking import ProxyCache
 from kfmaps.matching.sample_pair import two_level_samples
-from kfmaps.matching.score import SCORE, landmark_support, probability, verdict
+from kfmaps.matching.score import SCORE, landmark_support, max_landmark_error, probability, rejected_landmarks, verdict
+from kfmaps.matching.search import search_map
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.alternating_registration import (
@@ -44,27 +44,7 @@ from kfmaps.registration.evidence import coarse_copy
 from kfmaps.registration.nonrigid_icp import _SCALED_LANDMARK_PULL, NonRigid
 from kfmaps.shape import mirror_image
 
-GUARDS = (
-    "kfmaps.matching",
-    "kfmaps.registration.alternating_registration",
-    "kfmaps.registration.evidence",
-    "kfmaps.registration.nonrigid_icp",
-)
-
-"""Of a single map, which SHOT has led."""
-
-
-@pytest.fixture(autouse=True)
-def one_thread() -> Iterator[None]:
-    """Work on one thread, so that calls that a test records come in order."""
-    with limit_threads(1):
-        yield
-
-
-def on_a_line(*places: float) -> tuple[np.ndarray, np.ndarray]:
-    """Distances from landmarks at these places of a source of length 1 to a hundred samples, and the areas of these."""
-    samples = (np.arange(100) + 0.5) / 100
-    return np.abs(np.array(places)[:, None] - samples), np.where(samples < 0.5, 1, 2)
+GUARDS = ("kfmaps.matching", "kfmaps.matching.score", "kfmaps.matching.search", "kfmaps.registration")
 
 
 def spread_out(creatures: Any, count: int) -> np.ndarray:
@@ -73,16 +53,16 @@ def spread_out(creatures: Any, count: int) -> np.ndarray:
     return np.stack([creatures[2][rows], rows], axis=1)
 
 
-def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
-    source, target, _ = creatures
-    return np.asarray(to_functional(points, source.basis.truncate(k), target.basis.truncate(k)))
+def copies(creatures: Any, *counts: int) -> Any:
+    """Coarse copies of both, of so many vertices."""
+    return [coarse_copy(shape, count) for shape, count in zip(creatures[:2], counts, strict=True)]
 
 
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
-    C = functional(creatures[2], creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].fine))
-    monkeypatch.setattr(choose, "candidates_without_landmarks", lambda *_a, **_m: [])
+    C = functional_map(creatures[2], *creatures[:2])
+    for name in ("candidates", "candidates_without_landmarks"):
+        monkeypatch.setattr(choose, name, lambda *a, **_m: score_maps([Start("a", C)], a[3].fine))
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=-np.inf))
 
 
@@ -93,7 +73,7 @@ def slid(creatures: Any) -> np.ndarray:
     places = source.mesh.vertices[truth]
     moved = places + 0.15 * np.sin(4 * places[:, [1, 2, 0]])
     points = np.linalg.norm(moved[:, None] - source.mesh.vertices, axis=2).argmin(axis=1)
-    return functional(points, creatures, 20)
+    return functional_map(points, *creatures[:2], k=20)
 
 
 def given(creatures: Any, count: int) -> Any:
@@ -104,66 +84,9 @@ def given(creatures: Any, count: int) -> Any:
     return two_level_samples(source, target, judges, at).fine
 
 
-def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
-    far = 1 - SCORE.landmark_radius - 1e-3
-    there, areas = on_a_line(SCORE.landmark_radius, 0.5, far)
-    kept = np.zeros(3)
-    most = 1 / (1 + np.exp(-SCORE.landmark_error_middle / SCORE.landmark_error_width))
-    assert landmark_support(kept, there, areas) == pytest.approx(most)
-    # The squared share of the area, not of the samples nor of the landmarks.
-    for place, samples in ((SCORE.landmark_radius, np.arange(0, 40)), (far, np.arange(60, 100))):
-        share = areas[samples].sum() / areas.sum()
-        assert landmark_support(kept[:1], *on_a_line(place)) == pytest.approx(most * share**2)
-    many = landmark_support(np.zeros(50), *on_a_line(*[SCORE.landmark_radius] * 50))
-    assert many == pytest.approx(landmark_support(kept[:1], *on_a_line(SCORE.landmark_radius)))
-    shares = [landmark_support(kept[:i], *on_a_line(*(SCORE.landmark_radius, 0.5, far)[:i])) for i in range(4)]
-    assert shares[0] == 0.0
-    assert (np.diff(shares) > 0.05).all()
-
-
-def test_what_landmarks_say_ends_where_they_are_missed() -> None:
-    """Together, when the mean is no longer that of a right map; a single one has its say, but no more than that."""
-    there, areas = on_a_line(0.2, 0.5, 0.8)
-    assert landmark_support(np.full(3, SCORE.landmark_error_middle), there, areas) == pytest.approx(0.5)
-    assert landmark_support(
-        np.full(3, SCORE.landmark_error_middle + SCORE.landmark_error_width), there, areas
-    ) == pytest.approx(1 / (1 + np.e))
-    assert landmark_support(np.array([0.0, 0.0, 3 * SCORE.landmark_error_middle]), there, areas) == pytest.approx(0.5)
-    offs = [landmark_support(np.full(3, off), there, areas) for off in np.linspace(0, SCORE.max_landmark_error, 20)]
-    assert offs == sorted(offs, reverse=True)
-    several = on_a_line(*np.linspace(0, 1, 6))
-    said = [
-        landmark_support(np.array([0.0, 0.0, 0.0, 0.0, 0.0, off]), *several)
-        for off in (0.5 * SCORE.max_landmark_error, SCORE.max_landmark_error, 9.0)
-    ]
-    assert said[0] > 1.01 * said[1] == pytest.approx(1.01 * said[2])
-    assert said[2] == pytest.approx(
-        1 / (1 + np.exp((SCORE.max_landmark_error / 6 - SCORE.landmark_error_middle) / SCORE.landmark_error_width))
-    )
-
-
-def test_backing_takes_away_doubt() -> None:
-    bad, good = SCORE.calibration.middle - 1, SCORE.calibration.middle + 6
-    for score, margin, bending in ((bad, 0.5, None), (good, 0.0, 0.01), (good, np.inf, 10.0), (-1e5, 0.0, None)):
-        before = probability(score, margin, bending)
-        assert probability(score, margin, bending, 0.0) == before
-        assert probability(score, margin, bending, 1.0) == pytest.approx(1.0)
-        assert probability(score, margin, bending, 0.25) == pytest.approx(1 - 0.75 * (1 - before))
-    assert verdict(bad, np.inf) == "unlikely"
-    assert verdict(bad, 1.0, None, 0.5) == "likely"
-    assert verdict(bad, 1.0, None, 0.95) == "sure"
-    assert verdict(good, 0.0) == verdict(good, 0.0, None, 0.5) == "ambiguous"
-    assert verdict(good, 0.0, None, 0.85) == "sure"
-    # What would be sure without its rival is ambiguous, also where it is the landmarks that make it so.
-    alone = probability(bad, np.inf)
-    enough = 1 - 0.9 * (1 - SCORE.calibration.sure) / (1 - alone)
-    assert probability(bad, 0.1 * SCORE.calibration.tie, None, enough) < SCORE.calibration.sure
-    assert verdict(bad, 0.1 * SCORE.calibration.tie, None, enough) == "ambiguous"
-
-
 def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
     on = given(creatures, 10)
-    maps = (functional(creatures[2], creatures, 40), slid)
+    maps = functional_map(creatures[2], *creatures[:2]), slid
     right, wrong = (score_maps([Start("a", C)], on)[0] for C in maps)
     areas = np.asarray(on.source.samples.basis.mass)
     assert on.landmark_evidence is not None
@@ -180,7 +103,6 @@ def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> N
 
 
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
-    """As if its score were low."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
     harder = replace(SCORE.calibration, middle=0.0)
@@ -191,10 +113,7 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
         choose.search_map(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40))
     )
     assert (without.verdict, backed.verdict) == ("unlikely", "sure")
-    assert without.confidence is not None
-    assert without.confidence < 0.1
-    assert backed.confidence is not None
-    assert backed.confidence > SCORE.calibration.sure
+    assert (without.confidence or 1) < 0.1 < SCORE.calibration.sure < (backed.confidence or 0)
 
 
 def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypatch) -> None:
@@ -210,12 +129,9 @@ def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypat
 
 
 def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
-    """Also those of a mirror image, and the other way round."""
     source, target, _ = creatures
     at = spread_out(creatures, 30)
-    a, b = coarse_copy(source, 500), coarse_copy(target, 400)
-    assert a is not None
-    assert b is not None
+    a, b = copies(creatures, 500, 400)
     on = proxy_pair(source, target, (a, b))
     marks = on.nearest(at)
     for side, (shape, copy) in enumerate(((source, a), (target, b))):
@@ -233,9 +149,7 @@ def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
 
 def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None:
     source, target, truth = creatures
-    a, b = coarse_copy(source, 500), coarse_copy(target, 500)
-    assert a is not None
-    assert b is not None
+    a, b = copies(creatures, 500, 500)
     on = proxy_pair(source, target, (a, b))
     rows = stratified_vertices(target.basis, 1200, 0)
     rows = rows[np.isin(rows, b.vertices) & np.isin(truth[rows], a.vertices)][:12]
@@ -292,11 +206,8 @@ def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
 def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 3)
-    plain, led = (build_guidance(source, target, some, None, None, lead) for some in (at[:0], at))
-    whole = build_guidance(source, target, at)
-    assert plain is not None
-    assert led is not None
-    assert whole is not None
+    guides: Any = [build_guidance(source, target, some, None, None, lead) for some in (at[:0], at)]
+    plain, led, whole = *guides, build_guidance(source, target, at)
     k = plain.source.shape[1]
     for side in ("source", "target"):
         own, most = getattr(led, side), getattr(whole, side)
@@ -318,14 +229,10 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
     assert asked == [LANDMARK_WEIGHT, LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE]
 
 
-def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
-    """Each way round, with those that are not doubted."""
-    source, target, truth = creatures
+def test_what_is_mended_keeps_to_landmarks(creatures, judged, monkeypatch) -> None:
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    C = functional(truth, creatures, 40)
-    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([Start("a", C)], on)]
+    ranked = [replace(judged.right, deformation_energy=1.0)]
     at = spread_out(creatures, 4)
     begun, leads, usual = [], [], mending.build_guidance
 
@@ -339,8 +246,7 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
 
     monkeypatch.setattr(mending, "build_guidance", lead)
     monkeypatch.setattr(mending, "alternating_registration", made)
-    (way,) = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at)[1]
-    assert isinstance(way, mending.SwappedRepair)
+    way: Any = mending.refine_by_registration(ranked, judged.on, judged.copies, at)[1][0]
     way.make()
     (t, s), (s_again, t_again) = begun
     for there, here in ((s, t), (s_again, t_again)):
@@ -350,7 +256,6 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
 
 
 def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> None:
-    """Between bodies of other proportions, from the map of a search that is far off."""
     source, target, truth = creatures
     at = spread_out(creatures, 10)
     errors = []
@@ -361,3 +266,97 @@ def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> No
         errors.append(kfmaps.geodesic_errors(source.mesh, points, truth))
     assert errors[1].mean() <= errors[0].mean() < 0.03
     assert errors[1][at[:, 1]].mean() < 0.005
+
+
+@pytest.fixture(scope="module")
+def right(symmetric: Any) -> np.ndarray:
+    """Ten right landmarks."""
+    rows = stratified_vertices(symmetric.target.basis, 10, 0)
+    return np.stack([symmetric.truth[rows], rows], axis=1)
+
+
+def searched(symmetric: Any, landmarks: np.ndarray) -> SearchResult:
+    return search_map(symmetric.source, symmetric.target, SMALL, landmarks=landmarks)
+
+
+def away(symmetric: Any, vertex: int, distance: float) -> int:
+    """A vertex of the source so far from another."""
+    return int(np.abs(geodesic_distances(symmetric.source.mesh, [vertex])[0] - distance).argmin())
+
+
+@pytest.mark.parametrize("count", [3, 10])
+def test_all_landmarks_with_left_for_right_are_named(symmetric: Any, count: int) -> None:
+    """A mirrored map keeps to all of them, of three even a better one; the map without landmarks is sure and stays."""
+    rows = stratified_vertices(symmetric.target.basis, count, 0)
+    right, swapped = (np.stack([places[rows], rows], axis=1) for places in (symmetric.truth, symmetric.mirrored))
+    far = geodesic_distances(symmetric.source.mesh, right[:, 0])[np.arange(count), swapped[:, 0]] > 0.15
+    found = searched(symmetric, swapped)
+    assert (found.verdict, found.orientation) == ("sure", "preserving")
+    assert far.sum() > 0.3 * count
+    assert set(np.flatnonzero(far)) <= set(found.rejected_landmarks.tolist())
+
+
+def test_a_single_wrong_landmark_is_named_and_moves_nothing(
+    symmetric: Any, unmarked: SearchResult, right: np.ndarray
+) -> None:
+    wrong = np.array([[away(symmetric, right[0, 0], 0.2), right[0, 1]]])
+    found = searched(symmetric, wrong)
+    assert found.rejected_landmarks.tolist() == [0]
+    np.testing.assert_array_equal(found.functional_map, unmarked.functional_map)
+    assert (found.verdict, found.confidence) == (unmarked.verdict, unmarked.confidence)
+
+
+def test_of_many_landmarks_the_wrong_one_is_named_and_the_map_is_that_of_the_others(
+    symmetric: Any, right: np.ndarray
+) -> None:
+    spoiled = right[:5].copy()
+    spoiled[2, 0] = away(symmetric, right[2, 0], 0.2)
+    found, others = searched(symmetric, spoiled), searched(symmetric, np.delete(spoiled, 2, axis=0))
+    assert found.rejected_landmarks.tolist() == [2]
+    np.testing.assert_array_equal(found.landmarks, np.delete(spoiled, 2, axis=0))
+    np.testing.assert_allclose(found.functional_map, others.functional_map, atol=1e-9)
+
+
+def test_landmarks_may_be_farther_off_between_shapes_that_differ_much() -> None:
+    limits = [max_landmark_error(SCORE.non_isometric_score + more) for more in (0.0, -0.1)]
+    assert limits == [SCORE.max_isometric_landmark_error, SCORE.max_landmark_error]
+    errors = np.array([0.0, 0.2, 0.01])
+    assert [rejected_landmarks(errors, limit).tolist() for limit in limits] == [[False, True, False], [False] * 3]
+
+
+def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(
+    symmetric: Any, right: np.ndarray, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The search has rejected a right and a wrong one."""
+    given = right[:2].copy()
+    given[1, 0] = away(symmetric, right[1, 0], 0.3)
+    found = SearchResult(symmetric.C, "a", None, "sure", quality=-1.0, rejected_landmarks=np.arange(2))
+    monkeypatch.setattr(matching, "search_map", lambda *_a, **_m: found)
+    last = matching.match(symmetric.source, symmetric.target, SMALL, landmarks=given)
+    assert last.score.rejected_landmarks.tolist() == [1]
+
+
+@pytest.mark.parametrize(("ahead", "outcome"), [(1.1, "left out"), (0.9, "doubt"), (-0.9, "doubt"), (-1.1, "none")])
+def test_a_sure_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
+    monkeypatch: pytest.MonkeyPatch, ahead: float, outcome: str
+) -> None:
+    """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""
+    best, first, second = (
+        SimpleNamespace(score=score, quality=SimpleNamespace(score=-1.0), deformation_energy=None, missed=missed)
+        for score, missed in ((0.0, [0.0, 0.02]), (ahead, [0.5, 0.4]), (-20.0, [0.5, 0.4]))
+    )
+    for one in (best, first, second):
+        one.unregistered, one.landmark_errors = one, np.array(one.missed)
+    monkeypatch.setattr(landmark_conflicts, "ignore_landmarks", lambda one, *_: one)
+    monkeypatch.setattr(landmark_conflicts, "without_landmark_errors", lambda one: one)
+    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda *_: 1.0)
+    monkeypatch.setattr(landmark_conflicts, "rank_by_surface", lambda _: [first, second])
+    fine = SimpleNamespace(source=None)
+    state: Any = SimpleNamespace(
+        ranked=[best], candidates=[best, first], samples=SimpleNamespace(fine=fine), config=kfmaps.Config()
+    )
+    wrong, doubts = landmark_conflicts.contradicted_landmarks(state)
+    assert wrong.tolist() == 2 * [outcome == "left out"]
+    assert [(one, margin) for one, margin in doubts if margin < SCORE.close_margin] == (
+        [(first, -ahead)] if outcome == "doubt" else []
+    )

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conftest import rotation, sheet
 from kfmaps.batch.landmark_tables import local_differences, write_local_differences
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.results import Result
@@ -28,19 +29,15 @@ POINTS = np.array([[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]])
 STRETCH = 1.5
 
 
-def sheet(n: int) -> Mesh:
+def square(n: int) -> Mesh:
     """A square of [-1, 1]², of n × n cells."""
-    x, y = np.meshgrid(np.linspace(-1, 1, n + 1), np.linspace(-1, 1, n + 1), indexing="ij")
-    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    faces = np.concatenate([[corner, corner + n + 1, corner + n + 2], [corner, corner + n + 2, corner + 1]], axis=1).T
-    return Mesh(np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)]), faces)
+    return sheet(*2 * [np.linspace(-1, 1, n + 1)])
 
 
 def stretched(mesh: Mesh) -> Mesh:
     """The sheet with its right half stretched along x, then turned and scaled."""
     x, y, z = mesh.vertices.T
-    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
-    return Mesh(3 * np.column_stack([np.where(x > 0, STRETCH * x, x), y, z]) @ turn + 5, mesh.faces)
+    return Mesh(3 * np.column_stack([np.where(x > 0, STRETCH * x, x), y, z]) @ rotation(0) + 5, mesh.faces)
 
 
 def differences(source: Mesh, target: Mesh, place: PointMap, known: np.ndarray | None = None) -> list[np.ndarray]:
@@ -50,14 +47,14 @@ def differences(source: Mesh, target: Mesh, place: PointMap, known: np.ndarray |
 
 
 def test_a_known_stretch_is_found() -> None:
-    source = sheet(12)
+    source = square(12)
     area, conformal = differences(source, stretched(source), vertex_point_map(np.arange(len(source.vertices)), source))
     np.testing.assert_allclose(area, [2 / 2.5, 3 / 2.5])
     np.testing.assert_allclose(conformal, [1, (STRETCH + 1 / STRETCH) / 2])
 
 
 def test_the_target_may_have_other_triangles() -> None:
-    source, fine = sheet(12), sheet(31)
+    source, fine = square(12), square(31)
     found = closest_points(fine.vertices, source.vertices, source.faces)
     area, conformal = differences(source, stretched(fine), PointMap(found.faces, found.weights))
     np.testing.assert_allclose(area, [2 / 2.5, 3 / 2.5], atol=0.04)
@@ -65,7 +62,7 @@ def test_the_target_may_have_other_triangles() -> None:
 
 
 def test_a_landmark_without_surroundings_is_unknown() -> None:
-    source = sheet(12)
+    source = square(12)
     left = source.vertices[:, 0] < 1e-9
     place = vertex_point_map(np.arange(len(left)), source)
     area, conformal = differences(source, stretched(source), place, left)
@@ -76,7 +73,7 @@ def test_a_landmark_without_surroundings_is_unknown() -> None:
 @pytest.mark.filterwarnings("ignore::kfmaps._errors.KfmapsWarning")
 @pytest.mark.parametrize("verdict", ["sure", "unlikely"])
 def test_the_table_has_a_row_for_each_landmark_of_good_maps(tmp_path: Path, verdict: str) -> None:
-    source = sheet(12)
+    source = square(12)
     write_mesh(tmp_path / "a.ply", source)
     write_mesh(tmp_path / "b.ply", stretched(source))
     write_landmark_sets(tmp_path / "a.pts", [LandmarkSet(("l", "r"), POINTS)])

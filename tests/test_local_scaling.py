@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import kfmaps
+from conftest import SMALL, rotation, two_poses
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
+from kfmaps.geometry.arap import build_arap, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.matching import finish
 from kfmaps.matching.finish import UNLIKE_LOCAL_SCALING, adapt_settings
@@ -32,14 +33,15 @@ def ball():
 
 def test_a_change_of_size_is_found_exactly(ball) -> None:
     mesh, energy, areas = ball
-    turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
+    turn = rotation(0)
     x = 1.4 * mesh.vertices @ turn.T
-    found = local_scaling(energy, areas, 0.05)(x, rotations(energy, x))
+    turns = rotations(energy, x)
+    found = local_scaling(energy, areas, 0.05)(x, turns)
     np.testing.assert_allclose(found, np.broadcast_to(1.4 * turn, found.shape), atol=1e-8)
+    assert local_scaling(energy, areas, 0.0)(x, turns) is turns  # no area leaves rotations
 
 
 def test_longer_in_one_direction_is_found_nearly(ball) -> None:
-    """Damped towards a change alike in all directions, the more the flatter the surroundings are."""
     mesh, energy, areas = ball
     longer = np.diag([1.0, 1.0, 1.6])
     still = np.broadcast_to(EYE, (len(areas), 3, 3))
@@ -76,7 +78,7 @@ def test_it_turns_along_and_keeps_to_its_bounds(ball) -> None:
     mesh, energy, areas = ball
     rng = np.random.default_rng(1)
     x = mesh.vertices * (0.3, 1.0, 6.0) + 0.02 * rng.normal(size=mesh.vertices.shape)
-    turn = nearest_rotations(rng.normal(size=(1, 3, 3)))[0]
+    turn = rotation(2)
     stretched = local_scaling(energy, areas, 0.02)
     found, turned = (stretched(y, rotations(energy, y)) for y in (x, x @ turn.T))
     np.testing.assert_allclose(turned, turn @ found, atol=1e-6)
@@ -86,15 +88,9 @@ def test_it_turns_along_and_keeps_to_its_bounds(ball) -> None:
         np.testing.assert_allclose(sized, np.broadcast_to(bound * EYE, found.shape), atol=1e-9)
 
 
-def test_no_area_leaves_rotations(ball) -> None:
-    mesh, energy, areas = ball
-    turns = rotations(energy, mesh.vertices)
-    assert local_scaling(energy, areas, 0.0)(2 * mesh.vertices, turns) is turns
-
-
 def test_bodies_of_other_proportions_slide_less() -> None:
     """One half is longer and the other shorter; the fit is stiff, as between unlike shapes."""
-    source = unit_area(datasets.two_poses(1500, rng=1).source)
+    source = unit_area(two_poses(1500).source)
     x = source.vertices - source.vertices.mean(axis=0)
     axis = np.linalg.svd(x, full_matrices=False)[2][0]
     along = x @ axis
@@ -115,11 +111,9 @@ def test_a_stretch_is_an_area() -> None:
 
 
 def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
-    config = kfmaps.Config()
-
     def adapted(registration, quality):
         found = SearchResult(np.eye(3), "a", None, "unlikely", quality=quality)
-        return adapt_settings(replace(config, registration=registration), found, 0).registration
+        return adapt_settings(replace(SMALL, registration=registration), found, 0).registration
 
     unlike = SCORE.non_isometric_score - 1
     assert adapted(NonRigid(), unlike) == NonRigid(local_scaling=UNLIKE_LOCAL_SCALING)
@@ -127,10 +121,10 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
     assert adapted(None, unlike) is None
     for like in (SCORE.non_isometric_score, None):
         assert adapted(NonRigid(), like) == NonRigid()
-    pair = datasets.two_poses(1500, rng=1)
-    source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
+    pair = two_poses(1500)
+    source, target = (kfmaps.prepare(mesh, SMALL, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], finish.register_map
     monkeypatch.setattr(finish, "register_map", lambda *a: seen.append(a[3].registration.local_scaling) or usual(*a))
     for quality in (SCORE.non_isometric_score + 1, SCORE.non_isometric_score - 1):
-        finish.match_from_map(source, target, finish.KnownMap(pair.truth, "a", quality=quality), config)
+        finish.match_from_map(source, target, finish.KnownMap(pair.truth, "a", quality=quality), SMALL)
     assert seen == [0.0, UNLIKE_LOCAL_SCALING]

@@ -6,34 +6,40 @@ import pytest
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, to_numpy
 from kfmaps.fmap.convert import _embed_single, embed, nearest, to_functional, to_points
-from kfmaps.fmap.evaluate import coverage, error_curve, geodesic_errors, summarize_errors, truth_from_pairs
+from kfmaps.fmap.evaluate import error_curve, geodesic_errors, summarize_errors, truth_from_pairs
 from kfmaps.fmap.nearest import _TREE_POINTS
 from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import unit_area
-from kfmaps.geometry.sampling import spectral_samples
 
-GUARDS = (
-    "kfmaps.fmap.convert",
-    "kfmaps.fmap.evaluate",
-    "kfmaps.fmap.nearest",
-    "kfmaps.fmap.refine",
-    "kfmaps.fmap.zoomout",
-    "kfmaps.geometry.basis",
-)
+GUARDS = ("kfmaps.fmap", "kfmaps.geometry.basis")
+
+
+def brute(queries, points):
+    return ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
 
 
 def test_nearest_is_nearest(asarray, rng):
     queries, points = rng.normal(size=(50, 6)), rng.normal(size=(70, 6))
-    wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
-    np.testing.assert_array_equal(nearest(asarray(queries), asarray(points), block=17), wanted)
+    np.testing.assert_array_equal(nearest(asarray(queries), asarray(points), block=17), brute(queries, points))
 
 
-def test_nearest_survives_a_shift_and_prefers_the_first_of_equals(rng):
+@pytest.mark.parametrize("dimension", [7, 40])
+@pytest.mark.parametrize("size", [1e-200, 1e-160, 1e-30, 1e30, 1e150, 1e200])
+def test_nearest_at_any_scale(rng, size, dimension):
+    points, queries = rng.normal(size=(80, dimension)), rng.normal(size=(50, dimension))
+    np.testing.assert_array_equal(nearest(queries * size, points * size), brute(queries, points))
+
+
+def test_nearest_of_points_far_away_prefers_the_first_of_equals(rng):
     points = rng.normal(size=(40, 3))
-    doubled = np.vstack([points, points]) + 1e7
-    np.testing.assert_array_equal(nearest(points + 1e7, doubled), np.arange(40))
+    np.testing.assert_array_equal(nearest(points + 1e7, np.vstack([points, points]) + 1e7), np.arange(40))
+    far = 1e12 * rng.normal(size=(50, 3))
+    found, wanted = (np.linalg.norm(far - points[of(far, points)], axis=1) for of in (nearest, brute))
+    np.testing.assert_allclose(found, wanted)
+    for dimension, value in ((40, 1.0), (4, 0.0)):
+        np.testing.assert_array_equal(nearest(np.full((5, dimension), value), np.full((300, dimension), value)), 0)
 
 
 @pytest.mark.parametrize("apart", [1e-3, 1e-7, 1e-9, 0.0])
@@ -41,50 +47,17 @@ def test_nearest_tells_points_apart_that_single_precision_cannot(rng, apart):
     points = np.repeat(rng.normal(size=(60, 30)), 5, axis=0)
     points += apart * rng.normal(size=points.shape)
     queries = points[rng.permutation(300)[:90]] + 0.3 * apart * rng.normal(size=(90, 30))
-    wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
-    np.testing.assert_array_equal(nearest(queries, points), wanted)
-
-
-@pytest.mark.parametrize("size", [1e-160, 1e-30, 1e30, 1e150])
-def test_nearest_at_any_scale_and_of_queries_far_away(rng, size):
-    points, queries = rng.normal(size=(80, 7)), rng.normal(size=(50, 7))
-    wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
-    np.testing.assert_array_equal(nearest(queries * size, points * size), wanted)
-    far = queries * 1e12
-    wanted = np.linalg.norm(far[:, None] - points[None], axis=2).argmin(axis=1)
-    np.testing.assert_allclose(
-        np.linalg.norm(far - points[nearest(far, points)], axis=1), np.linalg.norm(far - points[wanted], axis=1)
-    )
-
-
-def test_nearest_of_equal_points_is_the_first():
-    np.testing.assert_array_equal(nearest(np.ones((5, 40)), np.ones((300, 40))), 0)
-    np.testing.assert_array_equal(nearest(np.zeros((5, 4)), np.zeros((3, 4))), 0)
-
-
-def test_nearest_on_large_sets_equals_the_product(rng):
-    points, queries = rng.normal(size=(20_001, 2)), rng.normal(size=(200, 2))
-    wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
-    np.testing.assert_array_equal(nearest(queries, points), wanted)
+    np.testing.assert_array_equal(nearest(queries, points), brute(queries, points))
 
 
 @pytest.mark.parametrize("size", [1.0, 2.0**-660, 2.0**660])
 def test_nearest_on_large_sets_prefers_the_first_of_equals_at_any_scale(rng, size):
-    # Most points many times, most queries tied.
-    lattice = size * rng.integers(0, 12, (_TREE_POINTS + 5000, 5)).astype(
-        float
-    )  # most points many times, most queries tied
+    lattice = size * rng.integers(0, 12, (_TREE_POINTS + 5000, 5)).astype(float)
     queries = size * (rng.integers(0, 12, (100, 5)) + rng.choice([0.0, 0.5], (100, 5)))
     squares = ((queries[:, None] / size - lattice / size) ** 2).sum(axis=2)
     np.testing.assert_array_equal(nearest(queries, lattice), np.argmin(squares, axis=1))
     several = size * np.repeat(rng.normal(size=(30, 5)), 1000, axis=0)
     np.testing.assert_array_equal(nearest(several[::-77], several), np.arange(30000)[::-77] // 1000 * 1000)
-
-
-@pytest.mark.parametrize("size", [1e-200, 1e200])
-def test_nearest_on_small_sets_at_extreme_scales(rng, size):
-    queries, points = rng.normal(size=(50, 40)), rng.normal(size=(90, 40))
-    np.testing.assert_array_equal(nearest(queries * size, points * size), nearest(queries, points))
 
 
 @pytest.mark.parametrize(
@@ -95,16 +68,7 @@ def test_nearest_refuses_what_does_not_fit(queries, points):
         nearest(queries, points)
 
 
-def test_identity_map_and_back(small_basis):
-    n = len(small_basis.mass)
-    points = np.arange(n)
-    C = to_functional(points, small_basis, small_basis)
-    np.testing.assert_allclose(C, np.eye(len(C)), atol=1e-8)
-    np.testing.assert_array_equal(to_points(C, small_basis, small_basis), points)
-
-
 def test_permuted_vertices_permute_the_answer(small_basis, convert, rng):
-    """C carries functions from source to target, the point map goes back: the convention of the whole package."""
     n = len(small_basis.mass)
     order = rng.permutation(n)  # target vertex i is source vertex order[i]
     target = Basis(small_basis.eigenvalues, small_basis.functions[order], small_basis.mass[order])
@@ -133,11 +97,6 @@ def test_a_vertex_without_area_is_nobodys_image(small_basis):
     points = to_points(np.eye(40), source, small_basis)
     assert 7 not in points
     np.testing.assert_array_equal(np.delete(points, 7), np.delete(np.arange(len(mass)), 7))
-
-
-def test_map_of_a_rectangular_functional_map(small_basis):
-    C = np.eye(30, 20)
-    assert to_points(C, small_basis, small_basis).shape == small_basis.mass.shape
 
 
 @pytest.mark.parametrize("points", [np.zeros(3, int), np.full(400, 400), np.full(400, -1), np.zeros(400)])
@@ -178,8 +137,9 @@ def test_refinement_repairs_a_noisy_map(refinement, two_meshings, rng):
     refined = refinement(C, source, target)
     after = geodesic_errors(mesh, refined.target_to_source, truth).mean()
     assert after < 0.15 * before
-    again = refinement(C, source, target)
-    np.testing.assert_array_equal(refined.target_to_source, again.target_to_source)
+    if isinstance(refinement, ICP):
+        gram = refined.functional_map.T @ refined.functional_map
+        np.testing.assert_allclose(gram, np.eye(20), atol=1e-10)
 
 
 def test_zoomout_says_its_sizes_and_ends_with_the_map_of_its_points(two_meshings):
@@ -189,21 +149,6 @@ def test_zoomout_says_its_sizes_and_ends_with_the_map_of_its_points(two_meshings
     assert refined.history == (8, 13, 18, 21)
     assert refined.functional_map.shape == (21, 21)
     np.testing.assert_array_equal(refined.target_to_source, to_points(refined.functional_map, source, target))
-
-
-def test_icp_gives_an_orthogonal_map(two_meshings):
-    _, source, target, truth = two_meshings
-    C = ICP(3)(to_functional(truth, source, target), source, target).functional_map
-    np.testing.assert_allclose(C.T @ C, np.eye(40), atol=1e-10)
-
-
-def test_spectral_samples_spread_and_share_out_the_area(two_meshings):
-    _, source, _, _ = two_meshings
-    samples = spectral_samples(source, 60, 0)
-    assert len(set(samples.vertices.tolist())) == 60
-    assert samples.basis.mass.sum() == pytest.approx(source.mass.sum())
-    assert samples.basis.mass.max() < 4 * source.mass.sum() / 60
-    np.testing.assert_array_equal(samples.basis.functions, source.functions[samples.vertices])
 
 
 def test_refinements_refuse_what_they_cannot_do(small_basis, rng):
@@ -237,13 +182,6 @@ def test_evaluation_of_known_errors():
     curve = error_curve(found.errors, thresholds)
     assert curve[0] == 0.25
     assert np.trapezoid(curve, thresholds) / 0.25 == pytest.approx(found.auc, abs=1e-4)
-
-
-def test_coverage_is_a_fraction_of_area(small_mesh):
-    n = len(small_mesh.vertices)
-    assert coverage(np.arange(n), small_mesh) == pytest.approx(1.0)
-    half = coverage(np.arange(n) % (n // 2), small_mesh)
-    assert 0.3 < half < 0.7
 
 
 def test_truth_of_pairs():

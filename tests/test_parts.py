@@ -1,24 +1,24 @@
 """Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed, bent and answered."""
 
 from dataclasses import replace
-from functools import partial
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from conftest import blob
+from conftest import NO_LANDMARKS, SMALL, blob, cloud_of, rotation
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps._progress import StageTimer
-from kfmaps.config import Config, Partial
+from kfmaps.config import Partial
 from kfmaps.datasets import largest_piece
 from kfmaps.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area
-from kfmaps.io import load_map
+from kfmaps.io import load_map, save_map
 from kfmaps.matching import match as matching
 from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
@@ -40,7 +40,6 @@ from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result_groups import MatchPart
 from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import prepare
-from test_search import SMALL
 
 PART = SCORE.part.calibration
 GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.matching.partial")
@@ -48,7 +47,7 @@ GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.matching.partial")
 
 def task_of(source, target, landmarks=None, config=SMALL):
     """Two prepared shapes to match."""
-    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    pairs = NO_LANDMARKS if landmarks is None else landmarks
     return MatchTask((source.mesh, target.mesh), reindexing(source, target), config, pairs, 0, StageTimer())
 
 
@@ -61,18 +60,21 @@ def pair():
 
 
 @pytest.fixture(scope="module")
+def small():
+    return prepare(blob(200), SMALL, name="small")
+
+
+@pytest.fixture(scope="module")
 def turned(pair):
     """The part in another unit, turned."""
-    rotation = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
-    rotation *= np.sign(np.linalg.det(rotation))
-    return Mesh(0.2 * pair.target.vertices @ rotation.T, pair.target.faces)
+    return Mesh(0.2 * pair.target.vertices @ rotation(3).T, pair.target.faces)
 
 
 @pytest.fixture(scope="module")
 def found(pair, turned):
-    """With every third scale alone, none of them the right one: each takes as long as the others."""
+    """With two scales alone, neither of them the right one: each takes as long as the others."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("kfmaps.matching.partial.place_part.SCALES", SCALES[1::3])
+        patch.setattr("kfmaps.matching.partial.place_part.SCALES", SCALES[4::3])
         return match(pair.source, turned, AUTO)
 
 
@@ -80,6 +82,13 @@ def found(pair, turned):
 def truth(pair):
     places = PointMap(pair.truth_faces, pair.truth_weights)
     return PartTruth(np.arange(len(pair.target.vertices)), places, True)
+
+
+def renumbered(kept, count):
+    """The number of each of ``count`` vertices among those that are kept, −1 for the others."""
+    new = np.full(count, -1)
+    new[kept] = np.arange(len(kept))
+    return new
 
 
 def disc(count):
@@ -102,12 +111,13 @@ def test_the_opening_of_a_disc_is_another_disc(pair):
 
 
 def test_boundaries_tell_which_is_a_part(pair):
-    assert detect_part(pair.source, pair.target).which == "target"
-    assert detect_part(pair.target, pair.source).which == "source"
-    assert detect_part(pair.source, pair.source).which == "none"
-    assert detect_part(pair.target, pair.target).which == "none"
-    cloud = Mesh(pair.target.vertices, pair.target.faces[:0])
-    assert detect_part(pair.source, cloud).which == "none"
+    whole, part = pair.source, pair.target
+    found = detect_part(whole, part)
+    assert (found.which, found.opening) == ("target", _boundary_opening(part))
+    for one, other, which in ((part, whole, "source"), (whole, whole, "none"), (part, part, "none")):
+        assert detect_part(one, other).which == which
+    assert detect_part(whole, whole).opening == 0
+    assert detect_part(whole, cloud_of(part)).which == "none"
     # A pinhole is none: a face of many is left out.
     pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
     assert 0.0 < _boundary_opening(pinhole) < SCORE.part.min_opening
@@ -122,16 +132,20 @@ def test_only_edges_of_one_face_are_a_boundary(pair):
 
 
 def test_distances_that_may_pass_a_cut_may_be_shorter_on_the_whole():
-    far, low = np.array([[0.5]]), np.array([[0.2]])
-    fits = [float(consistency(far, low, np.array([[d]]), _SLACK)[0, 0]) for d in (0.5, 0.49, 0.47, 0.1, 0.51, 0.8)]
-    assert fits[0] == 1.0
-    assert fits[0] > fits[1] > fits[2] > fits[3] == 0.0
-    assert fits[4] < 1.0
-    assert fits[5] == 0.0
-    # Far from every boundary a shorter way counts against a pair in full, near one it hardly does.
-    inner = float(consistency(far, far, np.array([[0.47]]), _SLACK)[0, 0])
-    assert inner < fits[2]
-    assert consistency(np.array([[np.inf]]), np.array([[np.inf]]), np.array([[1.0]]), _SLACK)[0, 0] == 0.0
+    """By as much as a detour around the boundary explains; far from every boundary a shorter way counts in full."""
+    part = distance_bounds(np.array([[0.0, 0.5], [0.5, 0.0]]), np.array([0.1, 0.1]), 1.0)
+    far, low = part.upper[:1, 1:], part.lower[:1, 1:]
+    assert low == pytest.approx(0.2)
+
+    def fits(far, low, d):
+        return float(consistency(far, low, np.array([[d]]), _SLACK)[0, 0])
+
+    values = [fits(far, low, d) for d in (0.5, 0.49, 0.47, 0.1, 0.51, 0.8)]
+    assert values[0] == 1.0
+    assert values[0] > values[1] > values[2] > values[3] == values[5] == 0.0
+    assert values[4] < values[1]
+    assert fits(far, far, 0.47) < values[2]
+    assert fits(np.array([[np.inf]]), np.array([[np.inf]]), 1.0) == 0.0
 
 
 def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):
@@ -146,25 +160,29 @@ def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):
     assert not np.isfinite(part_samples(pair.source, 60).boundary_distance).any()
 
 
-def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
-    assert found.partial.overlap_target is not None
-    errors = precise_errors(pair.source, found.precise(), truth.places)
-    assert errors.mean() < 0.03
-    common = found.target_to_source >= 0
-    assert common.mean() > 0.95
-    ours, true = found.partial.overlap_source > 0.5, _true_overlap(pair.source, pair.target, truth)
-    assert (ours & true).sum() / (ours | true).sum() > 0.85
+def test_a_part_in_another_unit_and_turned_is_placed(pair, turned, found, truth, tmp_path):
+    assert precise_errors(pair.source, found.precise(), truth.places).mean() < 0.03
     assert found.verdict != "unlikely"
     for overlap in (found.partial.overlap_source, found.partial.overlap_target):
-        assert overlap.min() >= 0.0
-        assert overlap.max() <= 1.0
+        assert 0.0 <= overlap.min() <= overlap.max() <= 1.0
+    save_map(tmp_path / "map.npz", found)
+    seen: Any = part_accuracy(pair.source, turned, load_map(tmp_path / "map.npz"), truth, "target")
+    assert seen.errors.mean < 0.03
+    assert seen.overlap > 0.85
+    assert seen.matched == pytest.approx((found.target_to_source >= 0).mean())
+    assert seen.matched > 0.95
+    assert 0.1 < seen.missing < 0.6
+    # Constants go to constants.
+    C = found.functional_map
+    assert C.shape[0] < C.shape[1]
+    assert C[0, 0] == pytest.approx(1.0, abs=0.05)
+    assert np.abs(C[1:, 0]).max() < 0.2
 
 
 def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, truth):
     """And where units are the same only one scale is tried."""
     back = match(pair.target, pair.source, replace(AUTO, partial=replace(AUTO.partial, scale="fixed")))
     assert back.partial.scale == pytest.approx(np.sqrt(surface_area(pair.target) / surface_area(pair.source)))
-    assert back.partial.overlap_target is not None
     lost = back.target_to_source < 0
     assert (back.target_to_source[lost] == -1).all()
     true = _true_overlap(pair.source, pair.target, truth)
@@ -176,77 +194,13 @@ def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, tr
     assert off.mean() < 0.05
 
 
-def test_constants_go_to_constants_on_a_part(found):
-    C = found.functional_map
-    assert C.shape[0] < C.shape[1]
-    assert C[0, 0] == pytest.approx(1.0, abs=0.05)
-    assert np.abs(C[1:, 0]).max() < 0.2
-
-
-def test_the_truth_is_measured_as_a_user_measures_it(pair, turned, found, truth, tmp_path):
-    from kfmaps.io import save_map
-
-    save_map(tmp_path / "map.npz", found)
-    seen = part_accuracy(pair.source, turned, load_map(tmp_path / "map.npz"), truth, "target")
-    assert seen.errors.mean < 0.03
-    assert seen.overlap is not None
-    assert seen.overlap > 0.85
-    assert seen.matched == pytest.approx((found.target_to_source >= 0).mean())
-    assert seen.missing is not None
-    assert 0.1 < seen.missing < 0.6
-
-
 def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
-    source, target = (prepare(blob(700, twist), AUTO) for twist in (0.0, 0.4))
-    plain = match(source, target, replace(AUTO, partial=Partial("none")))
-    auto = match(source, target, AUTO)
+    config = replace(AUTO, registration=None)
+    source, target = (prepare(blob(500, twist), config) for twist in (0.0, 0.4))
+    plain, auto = (match(source, target, replace(config, partial=p)) for p in (Partial("none"), config.partial))
     assert auto.partial.overlap_source is None
     assert np.array_equal(auto.target_to_source, plain.target_to_source)
     assert np.array_equal(auto.functional_map, plain.functional_map)
-
-
-def test_score_and_margin_speak_for_a_place():
-    chance = partial(probability, numbers=PART)
-    middle = chance(PART.middle + 1, 0.5)
-    assert 0 < chance(PART.middle - 1, 0.5) < middle < chance(PART.middle + 2, 0.5) < 1
-    assert chance(PART.middle + 1, 0.0) < middle < chance(PART.middle + 1, PART.max_margin)
-    assert chance(-1e6, 0.0) == pytest.approx(0.0)
-    # Of two that are equal each is as likely, however good they are.
-    assert chance(1e6, 0.0) == chance(1e6, -1.0) == 0.5
-    assert chance(PART.middle, 1e6) == pytest.approx(0.5)
-
-
-def test_a_close_rival_makes_a_verdict_ambiguous_and_never_unlikely():
-    word, most = partial(verdict, numbers=PART), PART.max_margin
-    good, bad = PART.middle + 9, PART.middle - 0.01
-    assert word(good, most) == "sure"
-    assert word(good, 0.0) == "ambiguous"
-    assert word(bad, most) == word(bad, 0.0) == "unlikely"
-    assert word(PART.middle + 0.3, most) == "likely"
-    # With the greatest margin nothing else is as good, however near "sure" is.
-    edge = next(x for x in np.arange(PART.middle, good, 0.01) if probability(x, np.inf, numbers=PART) > PART.sure)
-    assert (word(edge, most), word(edge, 0.9 * most)) == ("likely", "ambiguous")
-    for score, margin in ((1.0, 0.3), (5.0, 0.6), (1.5, 1.0), (0.1, most)):
-        chance = probability(PART.middle + score, margin, numbers=PART)
-        assert (word(PART.middle + score, margin) == "sure") == (chance >= PART.sure)
-
-
-def test_the_default_of_the_command_is_auto():
-    assert Config().partial.part == "auto"
-
-
-def test_only_what_a_detour_explains_is_forgiven():
-    part = distance_bounds(np.array([[0.0, 0.5], [0.5, 0.0]]), np.array([0.1, 0.1]), 1.0)
-    far, low = part.upper[0, 1], part.lower[0, 1]
-    assert low == pytest.approx(0.2)
-    fits = [
-        float(consistency(np.array([far]), np.array([low]), np.array([d]), (0.02, 0.1))[0]) for d in (0.5, 0.45, 0.55)
-    ]
-    assert fits[0] == 1
-    assert fits[2] < fits[1] < 1
-    sure = consistency(np.array([far]), np.array([far]), np.array([0.45]), (0.02, 0.1))[0]
-    assert sure < fits[1]
-    assert consistency(np.array([np.inf]), np.array([np.inf]), np.array([0.4]), (0.02, 0.1))[0] == 0
 
 
 @pytest.mark.parametrize(
@@ -279,10 +233,8 @@ def test_two_parts_of_like_size_are_in_one_unit(scale: str, ratio: float | None,
 
 
 @pytest.mark.parametrize("which", ["source", "target"])
-def test_a_part_is_placed_in_units_of_the_whole(monkeypatch, which):
-    """Whichever shape is the part, the ratio is its unit over that of the whole."""
-    mesh = blob(200)
-    small, large = (prepare(Mesh(size * mesh.vertices, mesh.faces), SMALL, name="a") for size in (1.0, 3.0))
+def test_a_part_is_placed_in_units_of_the_whole(small, monkeypatch, which):
+    large = prepare(Mesh(3.0 * blob(200).vertices, blob(200).faces), SMALL, name="large")
     seen = []
 
     def place(*_, ratio, **__):
@@ -303,9 +255,7 @@ def test_two_parts_are_placed_by_coarse_copies_and_their_landmarks(pair, monkeyp
     monkeypatch.setattr("kfmaps.matching.partial.place_part._PROXY_VERTICES", 500)
     height = pair.source.vertices @ [0.35, 1.0, 0.2]
     whole, kept = largest_piece(pair.source, height <= np.quantile(height, 0.9))
-    new = np.full(len(pair.source.vertices), -1)
-    new[kept] = np.arange(len(kept))
-    true = new[pair.truth]
+    true = renumbered(kept, len(height))[pair.truth]
     known = np.flatnonzero(true >= 0)
     rows = known[np.linspace(0, len(known) - 1, 4).astype(int)]
     sizes = [np.sqrt(surface_area(mesh)) for mesh in (pair.target, whole)]
@@ -321,44 +271,42 @@ def test_two_parts_are_placed_by_coarse_copies_and_their_landmarks(pair, monkeyp
 
 
 @pytest.mark.parametrize(("which", "word"), [("target", "unlikely"), ("both", "likely")])
-def test_two_parts_have_a_calibration_of_their_own(monkeypatch, which, word):
+def test_two_parts_have_a_calibration_of_their_own(small, monkeypatch, which, word):
     """Their right placements score less, and a placement that fits nowhere is sought without landmarks by the same."""
-    mesh, asked, score = blob(200), [], SCORE.part.calibration_of_two.middle + 2
+    asked, score = [], SCORE.part.calibration_of_two.middle + 2
     assert score < PART.middle - 2
-    shape = prepare(mesh, SMALL, name="a")
-    places, all_ = vertex_point_map(np.arange(200), shape.mesh), np.ones(200)
-    bent = SimpleNamespace(scale=1.0, vertices=shape.mesh.vertices)
+    places, all_ = vertex_point_map(np.arange(200), small.mesh), np.ones(200)
+    bent = SimpleNamespace(scale=1.0, vertices=small.mesh.vertices)
     overlap = SimpleNamespace(part=all_, whole=all_, on_whole=places, on_part=places)
 
     def place(*_, landmarks, **__):
         asked.append(len(landmarks))
         # Errors at the landmarks at which they support nothing.
-        far = shape.mesh.vertices + np.array([0.0, 0.0, 0.09])
+        far = small.mesh.vertices + np.array([0.0, 0.0, 0.09])
         return SimpleNamespace(registration=bent, overlap=overlap, scores=(score,), margin=3.0, unguided=far)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
-    found = match_partial(task_of(shape, shape, np.array([[3, 3], [50, 50]])), which, "because")[0]
+    found = match_partial(task_of(small, small, np.array([[3, 3], [50, 50]])), which, "because")[0]
     numbers = PART if which == "target" else SCORE.part.calibration_of_two
     assert found.confidence == pytest.approx(probability(score, 3.0, numbers=numbers), abs=1e-3)
     assert found.verdict == word
     assert asked == ([2, 0] if word == "unlikely" else [2])
 
 
-def test_landmarks_that_a_placement_keeps_without_them_support_it(monkeypatch):
+def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeypatch):
     """As those of whole shapes do, by the share of what is common that lies near them, in the unit of the whole."""
-    mesh, numbers = blob(200), SCORE.part.calibration_of_two
-    shape = prepare(mesh, SMALL, name="a")
-    vertices, half, scale = shape.mesh.vertices, np.arange(200) < 100, 0.5
-    places = vertex_point_map(np.arange(200), shape.mesh)
+    numbers = SCORE.part.calibration_of_two
+    vertices, half, scale = small.mesh.vertices, np.arange(200) < 100, 0.5
+    places = vertex_point_map(np.arange(200), small.mesh)
     overlap = SimpleNamespace(part=half * 1.0, whole=half * 1.0, on_whole=places, on_part=places)
     bent = SimpleNamespace(scale=scale, vertices=vertices)
     unguided, marks = vertices.copy(), np.array([[3, 3], [50, 50], [90, 90]])
     unguided[50] += [0.0, 0.0, 0.15]  # contradicted, so named; the others are where they belong
     one = SimpleNamespace(registration=bent, overlap=overlap, scores=(20.0,), margin=0.0, unguided=unguided)
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: one)
-    found = match_partial(task_of(shape, shape, marks), "both", "because")[0]
-    near = (scale * geodesic_distances(shape.mesh, marks[:, 1]) < SCORE.landmark_radius).any(axis=0)
-    areas = shape.basis.mass * half
+    found = match_partial(task_of(small, small, marks), "both", "because")[0]
+    near = (scale * geodesic_distances(small.mesh, marks[:, 1]) < SCORE.landmark_radius).any(axis=0)
+    areas = small.basis.mass * half
     right = 1 / (1 + np.exp((0.05 - SCORE.landmark_error_middle) / SCORE.landmark_error_width))
     support = (areas[near].sum() / areas.sum()) ** 2 * right
     assert 0.1 < support < 0.8
@@ -368,7 +316,6 @@ def test_landmarks_that_a_placement_keeps_without_them_support_it(monkeypatch):
 
 
 def test_distances_decide_between_places_that_look_alike(rng):
-    """Of each sample's two best places by descriptors one keeps the distances; the best of all does not."""
     whole = rng.normal(size=(60, 3))
     distances = np.linalg.norm(whole[:, None] - whole, axis=2)
     at = rng.permutation(60)
@@ -414,7 +361,6 @@ def test_relaxation_weighs_places_by_their_support(rng):
 
 
 def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
-    """A sum over all other samples that are trusted and reached, landmarks where they were."""
     whole = rng.normal(size=(60, 3))
     distances = np.linalg.norm(whole[:, None] - whole, axis=2)
     at = rng.permutation(60)[:11]
@@ -451,7 +397,7 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
     ],
 )
 def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
-    monkeypatch, pair, word, told, opening, asked, whole, expected, steps
+    monkeypatch, small, word, told, opening, asked, whole, expected, steps
 ):
     tried = []
     part = SimpleNamespace(verdict=word, confidence=told, partial=MatchPart(scale=0.7))
@@ -473,7 +419,7 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
     monkeypatch.setattr(matching, "_compare_opposite", lambda _task, best, _which: best)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
-    result = matching.match(pair.source, pair.target, config)
+    result = matching.match(small, small, config)
     assert result is {"part": part, "whole": other}[expected]
     assert tried == steps
 
@@ -492,7 +438,7 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
     ],
 )
 def test_what_is_open_may_have_more_than_what_is_closed(
-    monkeypatch, pair, word, asked, scale, told, scale_of_opposite, expected
+    monkeypatch, small, word, asked, scale, told, scale_of_opposite, expected
 ):
     """A scan with its floor holds a whole body, so the closed shape may be the part."""
     word, _, marked = word.partition(", ")
@@ -509,11 +455,6 @@ def test_what_is_open_may_have_more_than_what_is_closed(
     monkeypatch.setattr(matching, "match_partial", matched)
     monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
-    found = matching.match(pair.source, pair.target, config, landmarks=landmarks)
+    found = matching.match(small, small, config, landmarks=landmarks)
     assert found is answers["source" if expected == "opposite" else "target"]
     assert tried == ["target"] + ["source"] * (word != "sure" and asked == "auto")
-
-
-def test_the_opening_of_the_part_is_told(pair):
-    assert detect_part(pair.source, pair.target).opening == _boundary_opening(pair.target) > 0
-    assert detect_part(pair.source, pair.source).opening == 0

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from conftest import inside_out, rotation, sheet
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.coarsen import coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area, vertex_normals
@@ -22,15 +23,9 @@ from kfmaps.matching.partial.registration import (
 from kfmaps.matching.partial.samples import PartPair, PartSamples
 from kfmaps.registration.deformable import deformable_mesh
 
-GUARDS = (
-    "kfmaps.geometry.closest_points",
-    "kfmaps.matching.partial.registration",
-    "kfmaps.matching.partial.samples",
-    "kfmaps.registration.deformable",
-)
+GUARDS = ("kfmaps.geometry.closest_points", "kfmaps.matching.partial", "kfmaps.registration.deformable")
 
-TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
-TURN *= np.sign(np.linalg.det(TURN))
+TURN = rotation(3)
 COUNT = 21
 X = np.array([1.0, 0.0, 0.0])
 
@@ -41,10 +36,8 @@ def hills(x, y, bend=0.0):
 
 
 def grid(x, y):
-    across, along = (part.ravel() for part in np.meshgrid(x, y, indexing="ij"))
-    a = (np.arange(len(x) - 1)[:, None] * len(y) + np.arange(len(y) - 1)).ravel()
-    faces = np.concatenate([np.stack([a, a + len(y), a + 1], 1), np.stack([a + 1, a + len(y), a + len(y) + 1], 1)])
-    return Mesh(hills(across, along), faces)
+    flat = sheet(x, y)
+    return Mesh(hills(*flat.vertices.T[:2]), flat.faces)
 
 
 def sampled(mesh, samples=()):
@@ -98,7 +91,6 @@ def test_a_part_that_was_moved_lies_where_it_was_cut(shapes, laid):
 
 
 def test_all_vertices_follow_a_coarse_copy(shapes, laid):
-    """A copy of a third of the vertices is bent back; the part itself is where it was cut, on the whole's own bumps."""
     whole, half, own = shapes
     _, on, part, size = laid
     copy = coarse_proxy(part, spread_vertices(part, len(own) // 3))
@@ -115,7 +107,6 @@ def test_all_vertices_follow_a_coarse_copy(shapes, laid):
 
 @pytest.mark.parametrize(("off", "least", "most"), [(0.03, 0.2, 1.0), (0.4, 0.0, 0.05)])
 def test_a_landmark_takes_the_part_along_unless_it_is_far_off(shapes, laid, off, least, most):
-    """By a share of the way; without it the part lies where it was cut."""
     whole, half, own = shapes
     _, on, part, size = laid
     away = np.linalg.norm(half.vertices - half.vertices[40], axis=1)
@@ -148,7 +139,7 @@ def test_edges_tell_the_scale(shapes, laid, factor):
 
 def test_a_mirror_image_is_folded(laid):
     lay, _, part, _ = laid
-    assert lay(more=Mesh(part.vertices, part.faces[:, ::-1])).flipped_area > 0.5
+    assert lay(more=inside_out(part)).flipped_area > 0.5
 
 
 def test_what_lies_beyond_the_whole_is_let_alone(shapes):
@@ -182,7 +173,6 @@ def test_only_the_boundary_has_something_beyond_it(shapes):
 
 
 def test_half_is_common_to_a_whole_and_its_half():
-    """Beyond the half's edge nothing is, though its vertices are nearer there than surfaces that are one may be."""
     sides = np.linspace(-0.5, 0.5, 41)
     whole = grid(sides, sides)
     own = np.arange(20 * 41)
@@ -204,6 +194,6 @@ def test_probability_falls_with_the_distance(shapes):
             Mesh(flat.vertices + np.array([0, 0, times * _OVERLAP_WIDTH]), flat.faces), boundary_vertices(flat), flat
         )[0]
         np.testing.assert_allclose(common[inner], expected, atol=1e-6)
-    turned = overlap_probability(Mesh(flat.vertices, flat.faces[:, ::-1]), boundary_vertices(flat), flat)[0]
+    turned = overlap_probability(inside_out(flat), boundary_vertices(flat), flat)[0]
     np.testing.assert_allclose(turned, 0.25)
     assert vertex_normals(scale_mesh(flat, 2.0)).shape == flat.vertices.shape

@@ -1,13 +1,16 @@
-"""Points inside triangles: the exact search, records, and numbers inside and outside a match."""
+"""Points inside triangles: the exact search, records, numbers inside and outside a match, distances and errors."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial import Delaunay
 
 import kfmaps
+from conftest import blob
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
+from kfmaps.fmap.evaluate import geodesic_errors, precise_errors, smoothness
 from kfmaps.fmap.precise import (
     PointMap,
     check_point_map_precise,
@@ -18,9 +21,11 @@ from kfmaps.fmap.precise import (
 )
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.closest_points import barycentric_matrix, closest_weights
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.geodesics import geodesic_distance_pairs
+from kfmaps.geometry.mesh import Mesh, mirror_mesh, surface_area
+from kfmaps.geometry.surface_points import surface_point_distances
 
-GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.clean", "kfmaps.geometry.closest_points")
+GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.fmap.precise", "kfmaps.geometry")
 
 
 def brute(queries: np.ndarray, points: np.ndarray, faces: np.ndarray) -> np.ndarray:
@@ -120,13 +125,89 @@ def test_faces_inside_are_found_outside() -> None:
 
 
 def test_a_match_of_cut_meshes_has_places_outside() -> None:
-    """The same places, whether the source's triangles hang together or not."""
-    pair = datasets.two_poses(1500, rng=1)
-    soup = Mesh(pair.source.vertices[pair.source.faces.ravel()], np.arange(3 * len(pair.source.faces)).reshape(-1, 3))
+    source, target = blob(600), blob(500, twist=0.4)
+    soup = Mesh(source.vertices[source.faces.ravel()], np.arange(3 * len(source.faces)).reshape(-1, 3))
     config = replace(kfmaps.Config.single_fit(), threads=1, registration=None)
-    one = kfmaps.match(pair.source, pair.target, config).precise()
+    one = kfmaps.match(source, target, config).precise()
     with pytest.warns(kfmaps.KfmapsWarning, match="seams"):
-        many = kfmaps.match(soup, pair.target, config).precise()
-    check_point_map_precise(many, soup, len(pair.target.vertices))
-    near = np.linalg.norm(point_positions(one, pair.source) - point_positions(many, soup), axis=1)
+        many = kfmaps.match(soup, target, config).precise()
+    check_point_map_precise(many, soup, len(target.vertices))
+    near = np.linalg.norm(point_positions(one, source) - point_positions(many, soup), axis=1)
     assert np.median(near) < 1e-3
+
+
+def plane(rng: np.random.Generator, n: int = 600) -> Mesh:
+    """A square cut into uneven triangles."""
+    flat = rng.uniform(size=(n, 2))
+    faces = Delaunay(flat).simplices.astype(np.int64)
+    a, b = flat[faces[:, 1]] - flat[faces[:, 0]], flat[faces[:, 2]] - flat[faces[:, 0]]
+    turned = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
+    faces[turned] = faces[turned][:, ::-1]
+    return Mesh(np.c_[flat, np.zeros(n)], faces)
+
+
+def anywhere(mesh: Mesh, count: int, rng: np.random.Generator) -> PointMap:
+    return PointMap(rng.integers(0, len(mesh.faces), count), rng.dirichlet(np.ones(3), count))
+
+
+def test_in_a_plane_near_points_are_as_far_as_a_ruler_says_and_far_ones_hardly_farther() -> None:
+    rng = np.random.default_rng(0)
+    mesh = plane(rng)
+    a, b = anywhere(mesh, 20_000, rng), anywhere(mesh, 20_000, rng)
+    places = [point_positions(p, mesh) for p in (a, b)]
+    ruler = np.linalg.norm(places[0] - places[1], axis=1)
+    inside = [np.minimum(p[:, :2], 1 - p[:, :2]).min(axis=1) > 0.1 for p in places]
+    near, some = np.flatnonzero((ruler < 0.12) & inside[0] & inside[1]), np.arange(150)
+    assert len(near) > 200
+
+    def distances(a: PointMap, b: PointMap, rows: np.ndarray) -> np.ndarray:
+        return surface_point_distances(mesh, a.faces[rows], a.weights[rows], b.faces[rows], b.weights[rows])
+
+    np.testing.assert_allclose(distances(a, b, near), ruler[near], atol=1e-10)
+    found = distances(a, b, some)
+    assert (found >= ruler[some] - 1e-12).all()
+    assert np.median(found / ruler[some]) < 1.01
+    np.testing.assert_allclose(found, distances(b, a, some), rtol=0.01)
+
+
+def test_vertices_are_points_too() -> None:
+    """Of a curved surface; a straight line from a point crosses more edges than the graph of vertices has."""
+    rng = np.random.default_rng(2)
+    mesh = datasets.sphere(400, rng=0)
+    a, b = rng.integers(0, len(mesh.vertices), (2, 100))
+    one, two = vertex_point_map(a, mesh), vertex_point_map(b, mesh)
+    found = surface_point_distances(mesh, one.faces, one.weights, two.faces, two.weights)
+    graph = geodesic_distance_pairs(mesh, a, b)
+    assert (found <= graph + 1e-12).all()
+    np.testing.assert_allclose(found, graph, rtol=0.02, atol=1e-12)
+    np.testing.assert_allclose(precise_errors(mesh, a, b), geodesic_errors(mesh, a, b), rtol=0.02, atol=1e-12)
+    np.testing.assert_allclose(precise_errors(mesh, one, two), found / np.sqrt(surface_area(mesh)))
+    assert precise_errors(mesh, one, a).max() < 1e-12
+
+
+def test_components_are_apart_and_broken_points_refused() -> None:
+    two = Mesh(np.vstack([np.eye(3), np.eye(3) + 5]), np.array([[0, 1, 2], [3, 4, 5]]))
+    thirds = np.full((2, 3), 1 / 3)
+    found = surface_point_distances(two, np.array([0, 0]), thirds, np.array([0, 1]), thirds)
+    assert found[0] == 0
+    assert np.isinf(found[1])
+    with pytest.raises(InvalidInput, match="faces of b"):
+        surface_point_distances(two, np.array([0]), thirds[:1], np.array([2]), thirds[:1])
+    with pytest.raises(InvalidInput, match="equal length"):
+        precise_errors(two, np.array([0, 1]), np.array([0]))
+
+
+def test_smoothness_of_the_identity_and_of_collapsed_and_mirrored_maps() -> None:
+    mesh = datasets.sphere(300, rng=0)
+    n = len(mesh.vertices)
+    whole = smoothness(mesh, mesh, np.arange(n))
+    assert (whole.coverage, whole.flipped_area, whole.stretched_area) == (pytest.approx(1.0), 0.0, 0.0)
+    point = smoothness(mesh, mesh, np.zeros(n, dtype=np.int64))
+    assert point.coverage < 0.1
+    assert point.stretched_area == 1.0
+    inside_out = Mesh(3 * mesh.vertices, mesh.faces[:, ::-1])
+    assert smoothness(mesh, inside_out, np.arange(n)).flipped_area == 0.0
+    assert smoothness(inside_out, mesh, np.arange(n)).flipped_area == 0.0
+    mirrored = smoothness(mesh, mirror_mesh(inside_out), np.arange(n))
+    assert mirrored.flipped_area == pytest.approx(1.0)
+    assert mirrored.stretched_area == 0.0  # lengths are compared at equal areas

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -11,12 +10,12 @@ import numpy as np
 import pytest
 
 import kfmaps
+from conftest import NO_LANDMARKS, functional_map, inside_out, reordered
 from kfmaps._arrays import NotConverged
-from kfmaps._threads import limit_threads
 from kfmaps.datasets import ExamplePair, posed_pair
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
-from kfmaps.fmap.convert import nearest, to_functional
+from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.matching import landmark_conflicts, ranking
 from kfmaps.matching import registration_refine as mending
@@ -24,7 +23,7 @@ from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.landmark_conflicts import candidates_without_landmarks
 from kfmaps.matching.quality import sample_for_scoring
-from kfmaps.matching.ranking import ProxyCache, normalize_errors, reference_values, rerank_close
+from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE
@@ -38,18 +37,7 @@ from kfmaps.registration.evidence import (
     registered_shot_error,
 )
 
-GUARDS = (
-    "kfmaps.matching",
-    "kfmaps.registration.alternating_registration",
-    "kfmaps.registration.evidence",
-)
-
-
-@pytest.fixture(autouse=True)
-def one_thread() -> Iterator[None]:
-    """Work on one thread, so that calls that a test records come in order."""
-    with limit_threads(1):
-        yield
+GUARDS = ("kfmaps.matching", "kfmaps.registration")
 
 
 @pytest.fixture(scope="module")
@@ -62,20 +50,8 @@ def knees() -> ExamplePair:
     return posed_pair("knees", Body(SYMMETRIC), {**WAVE, **inwards}, {}, (1500, 1200), draw, mirror=True)
 
 
-@pytest.fixture(scope="module")
-def at_rest(creatures):
-    a, b = (coarse_copy(shape) for shape in creatures[:2])
-    assert a is not None
-    assert b is not None
-    return proxy_pair(creatures[0], creatures[1], (a, b))
-
-
-def functional(points, source, target, k=40):
-    return np.asarray(to_functional(points, source.basis.truncate(k), target.basis.truncate(k)))
-
-
-def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypatch):
-    mesh = creatures[0].mesh
+def test_differences_are_squared_and_from_what_lies_nearest(judged, monkeypatch):
+    mesh = judged.source.mesh
     monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
     here = _surface_samples(mesh)
     at = np.arange(0, len(mesh.vertices), 6)
@@ -85,66 +61,49 @@ def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypat
     assert _shot_difference(moved, mesh) == pytest.approx(25.0)
 
 
-def test_a_surface_looks_like_itself_wherever_its_vertices_are(creatures):
-    mesh = creatures[0].mesh
+def test_a_surface_looks_like_itself_wherever_its_vertices_are(judged):
+    mesh = judged.source.mesh
     order = np.random.default_rng(0).permutation(len(mesh.vertices))
-    again = Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
-    assert _shot_difference(_surface_samples(mesh), again) == pytest.approx(0, abs=1e-6)
-    assert _shot_difference(_surface_samples(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
+    samples = _surface_samples(mesh)
+    assert _shot_difference(samples, reordered(mesh, order)) == pytest.approx(0, abs=1e-6)
+    assert _shot_difference(samples, Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
 
 
-def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creatures):
+def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(judged):
     """Where two sheets lie close, it is the normals that tell which point lies on which."""
-    mesh = creatures[0].mesh
-    inside_out = Mesh(mesh.vertices, mesh.faces[:, ::-1])
-    apart = np.linalg.norm(
-        _surface_samples(mesh).position_normals - _surface_samples(inside_out).position_normals, axis=1
+    here, there = (
+        _surface_samples(mesh).position_normals for mesh in (judged.source.mesh, inside_out(judged.source.mesh))
     )
-    np.testing.assert_allclose(apart, 2 * alternate._NORMAL_WEIGHT, rtol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(here - there, axis=1), 2 * alternate._NORMAL_WEIGHT, rtol=1e-6)
 
 
-def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(creatures, at_rest):
-    source, target, truth = creatures
-    v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
+def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(judged):
+    v = judged.source.mesh.vertices - judged.source.mesh.vertices.mean(axis=0)
     about = nearest(v, v * [-1.0, -1.0, 1.0])
-    right, wrong = functional(truth, source, target), functional(about[truth], source, target)
-    good, bad = (registered_shot_error(C, at_rest) for C in (right, wrong))
-    assert good is not None
-    assert bad is not None
-    assert good < 0.8 * bad
+    wrong = functional_map(about[judged.truth], judged.source, judged.target)
+    good, bad = (registered_shot_error(C, judged.copies.coarse) or 0 for C in (judged.C, wrong))
+    assert 0 < good < 0.8 * bad
 
 
-def test_both_directions_count_unless_one_falls_apart(creatures, at_rest, monkeypatch):
-    source, target, truth = creatures
-    C = functional(truth, source, target)
-    told: dict[bool, float | None] = {True: 0.1, False: 0.3}
-    monkeypatch.setattr(looks, "_registered_shot_error", lambda way, *_rest: told[way is at_rest.forth])
-    assert registered_shot_error(C, at_rest) == pytest.approx(0.2)
-    told[False] = None
-    assert registered_shot_error(C, at_rest) == pytest.approx(0.1)
-    told[True] = None
-    assert registered_shot_error(C, at_rest) is None
+def test_both_directions_count_unless_one_falls_apart(judged, monkeypatch):
+    pair = judged.copies.coarse
+    for forth, back, wanted in ((0.1, 0.3, pytest.approx(0.2)), (0.1, None, pytest.approx(0.1)), (None, None, None)):
+        told = {True: forth, False: back}
+        monkeypatch.setattr(looks, "_registered_shot_error", lambda way, *_rest, told=told: told[way is pair.forth])
+        assert registered_shot_error(judged.C, pair) == wanted
 
 
-def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatch):
-    source, target, truth = creatures
-
+def test_a_copy_that_falls_apart_is_not_looked_at(judged, monkeypatch):
     class Broken:
         def bent(self, *_what):
             raise NotConverged("it fell apart")
 
     monkeypatch.setattr(looks, "FIT", Broken())
-    assert registered_shot_error(functional(truth, source, target), at_rest) is None
+    assert registered_shot_error(judged.C, judged.copies.coarse) is None
 
 
-def one_of(creatures):
-    source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).fine
-    return on, score_maps([Start("truth", functional(truth, source, target))], on)[0]
-
-
-def test_looks_and_strain_count_over_usual_ones(creatures):
-    one = one_of(creatures)[1]
+def test_looks_and_strain_count_over_usual_ones(judged):
+    one = judged.right
     some = [replace(one, strain=s, shot_error=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
     usual = (-2.0, 0.2)
     assert reference_values(some, min) == usual
@@ -154,11 +113,8 @@ def test_looks_and_strain_count_over_usual_ones(creatures):
     assert lost == pytest.approx([SCORE.w_strain, SCORE.w_shot * 0.06, 0.0])
 
 
-def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypatch):
-    """Though all else says a little more for the other."""
-    source, target, _ = creatures
-    on, good = one_of(creatures)
-    good = replace(good, deformation_energy=1.0)
+def test_of_mended_maps_the_one_that_looks_right_comes_first(judged, monkeypatch):
+    good = replace(judged.right, deformation_energy=1.0)
     turned = np.roll(np.arange(len(good.points)), 50)
     quality = replace(good.quality, distortion=good.quality.distortion - 0.01)
     bad = replace(good, name="bad", points=turned, quality=quality, functional_map=-good.functional_map)
@@ -168,31 +124,28 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
 
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
-    nowhere = np.zeros((0, 2), dtype=np.int64)
-    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere)[0]
+    begun = [bad, good], judged.on, judged.copies, NO_LANDMARKS
+    ranked = refine_by_registration(*begun)[0]
     assert [c.name for c in ranked] == ["bad", "truth"]
-    made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
+    made = alternate.AlternatingResult(good.functional_map, judged.source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
     monkeypatch.setattr(mending, "score_maps", lambda starts, *_w: [bad if starts[0].name == "bad" else good])
     monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere)[0]
+    found = refine_by_registration(*begun)[0]
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
 
-def test_repairs_that_were_given_up_count_as_the_worst(creatures, monkeypatch):
-    """By less evidence one that is wrong would lead."""
-    source, target, _ = creatures
-    on, one = one_of(creatures)
+def test_repairs_that_were_given_up_count_as_the_worst(judged, monkeypatch):
+    one = judged.right
     maps = [
         replace(one, name=str(i), points=np.roll(one.points, 50 * i), functional_map=i * np.eye(5)) for i in range(3)
     ]
     ended = {i: replace(c, shot_error=0.1 + 0.2 * i, strain=float(i)) for i, c in enumerate(maps[:2])}
     monkeypatch.setattr(mending, "with_shot_errors", lambda found, *_what: found)
     monkeypatch.setattr(mending, "_run_repairs", lambda *_what: (ended, {2: maps[2]}))
-    nowhere, copies = np.zeros((0, 2), dtype=np.int64), ProxyCache.of(source, target, on)
-    found = refine_by_registration(maps, on, copies, nowhere)[0]
+    found = refine_by_registration(maps, judged.on, judged.copies, NO_LANDMARKS)[0]
     assert {c.name: c.shot_error for c in found} == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
     assert {c.name: c.strain for c in found} == {"0": 0.0, "1": 1.0, "2": 1.0}
 
@@ -229,24 +182,18 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
     behind they would have to speak against a map that is wrong everywhere."""
     plain = replace(kfmaps.Config(), descriptors=replace(kfmaps.Config().descriptors, shot=False))
     source, target = (kfmaps.prepare(mesh, plain, name="a") for mesh in (knees.source, knees.target))
-    a, b = coarse_copy(source), coarse_copy(target)
-    assert a is not None
-    assert b is not None
-    on = proxy_pair(source, target, (a, b))
-    seen = []
-    for height in (0.0, 0.1, 0.7, 3.0):
-        what = registered_shot_error(functional(exchanged(knees, height), source, target, 60), on)
-        assert what is not None
-        seen.append(what)
+    copies: Any = coarse_copy(source), coarse_copy(target)
+    on = proxy_pair(source, target, copies)
+    maps = (functional_map(exchanged(knees, height), source, target, 60) for height in (0.0, 0.1, 0.7, 3.0))
+    seen = [registered_shot_error(C, on) or 0 for C in maps]
     feet, legs, all_of_it = (SCORE.w_shot * (bad - seen[0]) for bad in seen[1:])
     assert feet < SCORE.shot_margin < legs < SCORE.hopeless_margin < all_of_it
 
 
 @pytest.mark.parametrize(("margin", "again"), [(2.0, False), (0.5, True)])
-def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, again):
+def test_of_two_that_are_close_looks_decide(judged, monkeypatch, margin, again):
     """And where they are closer still, both are bent again; farther back nobody is looked at."""
-    source, target, _ = creatures
-    on, good = one_of(creatures)
+    good = judged.right
     quality = replace(good.quality, distortion=good.quality.distortion - margin / 6)
     good = replace(good, deformation_energy=0.15)
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
@@ -254,7 +201,7 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     bent = []
     monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on))
+    found = rerank_close([bad, good, rest], judged.copies)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.shot_error for c in found[:2]] == pytest.approx([0.0, 0.05])
     assert found[0].score - found[1].score == pytest.approx(0.05 * SCORE.w_shot - margin)
@@ -262,10 +209,8 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     assert bent == (["bad", "truth"] if again else [])
 
 
-def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
-    source, target, _ = creatures
-    on, one = one_of(creatures)
-    asked = []
+def test_looks_are_asked_for_where_two_are_close(judged, monkeypatch):
+    one, asked = judged.right, []
     monkeypatch.setattr(ranking, "rerank_close", lambda order, *_rest: asked.append(len(order)) or order)
     monkeypatch.setattr(
         ranking, "with_deformation_energy", lambda near, *_rest: [replace(c, deformation_energy=0.15) for c in near]
@@ -273,18 +218,17 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
     for margin, wanted in ((SCORE.shot_margin + 0.2, 0), (SCORE.shot_margin - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
-        maps, copies = [one, other], ProxyCache.of(source, target, on)
-        first = ranking.ranking(maps, on, copies)[0].score
+        arguments = [one, other], judged.on, judged.copies
+        first = ranking.ranking(*arguments)[0].score
         assert len(asked) == wanted
-        ranking.ranking(maps, on, copies, least=first)
+        ranking.ranking(*arguments, least=first)
         assert len(asked) == wanted  # not where the first would have to be better
-        ranking.ranking(maps, on, copies, least=first - 0.1)
+        ranking.ranking(*arguments, least=first - 0.1)
         assert len(asked) == 2 * wanted
 
 
-def test_what_is_far_behind_is_not_looked_at(creatures):
-    """And counts as the worst of those that are."""
-    one = replace(one_of(creatures)[1], strain=0.0)
+def test_what_is_far_behind_is_not_looked_at(judged):
+    one = replace(judged.right, strain=0.0)
     behind = [
         replace(one, strain=s / SCORE.w_strain) for s in (0.0, SCORE.hopeless_margin - 1, SCORE.hopeless_margin + 1)
     ]
@@ -302,7 +246,6 @@ def test_what_is_far_behind_is_not_looked_at(creatures):
 
 
 def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
-    """They are the ones of a search that knows of none, and are judged by the landmarks all the same."""
     source, target, truth = creatures
     marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
     probes = [sample_for_scoring(s, 200, landmarks=at) for s, at in zip((source, target), marks.T, strict=True)]

@@ -1,6 +1,8 @@
 """Every number that maps are judged by counts, and counts the right way."""
 
+import itertools
 from dataclasses import fields, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -8,12 +10,13 @@ import pytest
 
 from kfmaps.matching.score import (
     SCORE,
+    Calibration,
     Candidate,
     PartEvidence,
     Quality,
     Scoring,
     candidate_score,
-    excess_deformation,
+    landmark_support,
     lower_by_torn_area,
     part_landmark_cost,
     part_score,
@@ -91,8 +94,9 @@ def test_the_tables_name_all_weights() -> None:
     assert {f.name for f in fields(SCORE.part) if f.name.startswith("w_")} == set(PART_WEIGHTS)
 
 
-def test_landmarks_that_a_part_contradicts_cost_more_of_two_parts() -> None:
+def test_costs_of_a_part_are_bounded_and_landmarks_cost_more_of_two() -> None:
     assert part_score(replace(PART, landmark_cost=0.0)) - part_score(PART) == 2.0
+    assert part_score(replace(PART, scale_change=0.26)) == part_score(replace(PART, scale_change=9.0))  # at most
     assert [part_landmark_cost(np.array([0.11, 0.09, 0.3]), two) for two in (False, True)] == [2.0, 6.0]
 
 
@@ -108,24 +112,53 @@ def test_what_is_not_known_costs_nothing() -> None:
     assert placement_score(PART) == pytest.approx(4 * 0.8 + 2)
 
 
-@pytest.mark.parametrize("number", ["slope", "middle", "tie", "excess_middle", "excess_width"])
-def test_every_number_of_the_calibration_counts(number: str) -> None:
-    usual = np.exp(0.6 - excess_deformation(-9.0, 1.0))
-    for numbers in (SCORE.calibration, SCORE.part.calibration, SCORE.part.calibration_of_two):
-        score = numbers.middle + 1 / numbers.slope
-        energy = float(np.exp(0.6 - excess_deformation(score, 1.0, numbers)))
-        other = replace(numbers, **{number: 1.5 * getattr(numbers, number)})
-        before, after = (probability(score, 0.2, energy, numbers=n) for n in (numbers, other))
-        assert abs(before - after) > 1e-3
-    assert excess_deformation(-9.0, usual) == pytest.approx(0.6)
+CALIBRATIONS = pytest.mark.parametrize(
+    ("numbers", "slope", "middle", "tie"),
+    [
+        (SCORE.calibration, 0.92, -12.0, 1.4),
+        (SCORE.part.calibration, 1 / 0.43, 16.2, 1.3),
+        (SCORE.part.calibration_of_two, 1 / 2.7, 9.9, 1.3),
+    ],
+    ids=["wholes", "part", "two parts"],
+)
 
 
-def test_a_verdict_is_ambiguous_where_a_rival_takes_the_word_away() -> None:
-    numbers = SCORE.calibration
-    for above, alone in ((6.0, "sure"), (1.0, "likely"), (-1.0, "unlikely")):
-        assert verdict(numbers.middle + above, np.inf) == alone
-    assert verdict(numbers.middle + 6, 0.0) == verdict(numbers.middle + 1, 0.0) == "ambiguous"
-    assert verdict(numbers.middle - 1, 0.0) == "unlikely"
+@CALIBRATIONS
+def test_the_probability_is_that_of_the_manual(numbers: Calibration, slope: float, middle: float, tie: float) -> None:
+    """docs/mathematics.md: score, margin, deformation, and landmarks that take away doubt."""
+    for above, margin in itertools.product((-3.0, 0.0, 2.0, 1e4), (-1.0, 0.0, 0.3, 1.4, np.inf)):
+        score = middle + above
+        fits = (1 - 0.5 * np.exp(-max(margin, 0) / tie)) / (1 + np.exp(-slope * above))
+        assert probability(score, margin, numbers=numbers) == pytest.approx(fits)
+        for excess, support in itertools.product((-2.0, 0.7, 0.9), (0.0, 0.25, 1.0)):
+            energy = np.exp(excess - 3.6 - 0.233 * score)
+            if energy > 0:
+                alone = fits / (1 + np.exp(12.5 * (excess - 0.75)))
+                found = probability(score, margin, energy, support, numbers)
+                assert found == pytest.approx(1 - (1 - support) * (1 - alone))
+    assert probability(-1e5, 0.0, numbers=numbers) == pytest.approx(0)
+
+
+@CALIBRATIONS
+def test_a_verdict_is_ambiguous_where_a_rival_takes_the_word_away(
+    numbers: Calibration, slope: float, middle: float, tie: float
+) -> None:
+    word = partial(verdict, numbers=numbers)
+    for above, alone in ((9.0, "sure"), (1.0, "likely"), (-0.01, "unlikely")):
+        score, most = middle + above / slope, numbers.max_margin
+        assert word(score, most) == alone
+        assert word(score, 0.0) == ("unlikely" if alone == "unlikely" else "ambiguous")
+        assert word(score, most, np.exp(4 - 3.6 - 0.233 * score)) == "unlikely"
+        assert word(score, most, None, 0.95) == "sure"
+    # What would be sure without its rival is ambiguous, also where it is the landmarks that make it so.
+    bad = middle - 1 / slope
+    enough = 1 - 0.9 * (1 - numbers.sure) / (1 - probability(bad, np.inf, numbers=numbers))
+    assert probability(bad, 0.1 * tie, None, enough, numbers) < numbers.sure
+    assert word(bad, 0.1 * tie, None, enough) == "ambiguous"
+    # With the greatest margin nothing else is as good, however near "sure" is.
+    if np.isfinite(numbers.max_margin):
+        edge = middle + np.log(9.01) / slope
+        assert (word(edge, numbers.max_margin), word(edge, 0.9 * numbers.max_margin)) == ("likely", "ambiguous")
 
 
 @pytest.mark.parametrize(
@@ -142,6 +175,17 @@ def test_torn_area_lowers_the_probability(chance: Any, word: str, torn: float, l
     found = lower_by_torn_area(chance, word, torn)
     assert found[1] == lower[1]
     assert found[0] == pytest.approx(lower[0])
+
+
+@pytest.mark.parametrize("errors", [[0.0], [0.05, 0.058, 0.06], [0.0] * 5 + [0.2], [0.0] * 5 + [9.0], [0.3, 0.3]])
+def test_landmarks_support_a_map_by_the_area_around_them_and_their_mean_error(errors: list[float], rng) -> None:
+    """The squared share of the area, not of the samples, times a logistic function; a single one has a limited say."""
+    distances, areas = rng.uniform(0, 1, (len(errors), 100)), rng.random(100)
+    near = (distances < 0.2).any(axis=0)
+    kept = 1 / (1 + np.exp((np.minimum(errors, 0.3).mean() - 0.055) / 0.004))
+    found = landmark_support(np.array(errors), distances, areas)
+    assert found == pytest.approx((areas[near].sum() / areas.sum()) ** 2 * kept)
+    assert landmark_support(np.zeros(0), distances[:0], areas) == 0.0
 
 
 def test_the_first_that_differ_are_selected() -> None:

@@ -1,41 +1,41 @@
-"""Near-symmetries of a shape, and that no map is chosen without a look at what it is mistaken for."""
+"""Near-symmetries of a shape, exchanged limbs, and that no map is chosen without a look at what it is mistaken for."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from kfmaps import Config, Mesh, datasets, match
-from kfmaps.datasets.skeleton import Bend, Body, Limb
+from conftest import NO_LANDMARKS, SMALL
+from kfmaps import Mesh
+from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
-from kfmaps.fmap.convert import to_functional
-from kfmaps.matching import orientation
+from kfmaps.fmap.convert import to_points
+from kfmaps.matching import candidates as found_by
+from kfmaps.matching import orientation, search, search_result
 from kfmaps.matching import self_maps as within
-from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps
+from kfmaps.matching.candidates import candidates, distinct_maps, has_clear_map, refine_coarse, score_maps
+from kfmaps.matching.extremity_matching import extremity_difference, match_of_map
+from kfmaps.matching.finish import _doubt_exchanged
 from kfmaps.matching.initial_maps import Start, symmetry_inits
+from kfmaps.matching.limb_exchange import _MAX_DIFFERENCE, compare_exchanged, exchange_limbs, exchanged_matches
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
+from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import scoring_samples, search_map
-from kfmaps.matching.search_result import _margin
+from kfmaps.matching.search_result import _margin, alternative_maps
 from kfmaps.matching.self_maps import _MAX_DISTORTION, _MIN_DISPLACEMENT, find_self_maps, self_maps
 from kfmaps.shape import prepare
-from test_search import SMALL
 
 GUARDS = ("kfmaps.matching",)
 
 
 @pytest.fixture(scope="module")
-def pair():
-    made = datasets.symmetric_creature(1500, rng=1)
-    return prepare(made.source, SMALL, name="source"), prepare(made.target, SMALL, name="target"), made.truth
-
-
-@pytest.fixture(scope="module")
-def on(pair):
-    return two_level_samples(pair[0], pair[1], (sample_for_scoring(pair[0]), sample_for_scoring(pair[1]))).coarse
+def on(symmetric):
+    return symmetric.samples.coarse
 
 
 def kept_seed():
@@ -73,12 +73,11 @@ def test_those_that_change_distances_early_are_none(monkeypatch, on):
     assert changed[1] == pytest.approx(on.source.distances.mean())
 
 
-def test_a_kept_probe_knows_them(pair):
-    kept = scoring_samples(pair[0])
-    few = subsample(sample_for_scoring(pair[0], rng=kept_seed()), 400)
+def test_a_kept_probe_knows_them(symmetric):
+    kept: Any = scoring_samples(symmetric.source)
+    few = subsample(sample_for_scoring(symmetric.source, rng=kept_seed()), 400)
     for C, again in zip(self_maps(subsample(kept, 400), 100), find_self_maps(few, 100), strict=True):
         np.testing.assert_array_equal(C, again)
-    assert kept.self_maps is not None
     np.testing.assert_array_equal(mirror_samples(kept).self_maps, kept.self_maps)
     # Those of fewer functions are others.
     assert [len(C) for C in self_maps(subsample(kept, 400), 30)] == [30] * len(find_self_maps(few, 30))
@@ -89,10 +88,9 @@ def test_one_function_has_none(on):
 
 
 @pytest.mark.parametrize("of_target", [False, True])
-def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
+def test_a_map_is_compared_with_what_it_is_mistaken_for(symmetric, on, of_target):
     """Of nothing but the mirrored map the true one is found: it could not be sure for want of a rival."""
-    source, target, truth = pair
-    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    C = symmetric.C
     S = find_self_maps(on.target if of_target else on.source, 40)[0]
     right = score_maps([Start("truth", C)], on)[0]
     mirrored = score_maps([Start("mirrored", S @ C if of_target else C @ S)], on)[0]
@@ -103,11 +101,9 @@ def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
     assert len(distinct_maps([right, found[0]], on.source, 0.08)) == 1
 
 
-def test_a_symmetric_body_is_not_taken_for_a_mirror_image(pair, monkeypatch):
-    """A search that has missed the right map, but not the mirrored one, finds it by the symmetry of the body."""
-    source, target, truth = pair
-    state = search_map(source, target, SMALL)._search
-    assert state is not None
+def test_a_symmetric_body_is_not_taken_for_a_mirror_image(symmetric, unmarked, monkeypatch):
+    source, truth = symmetric.source, symmetric.truth
+    state: Any = unmarked._search
     whole = state.samples.fine
 
     def error(one):
@@ -141,15 +137,6 @@ def starfish_body():
     return Body((trunk, *arms))
 
 
-def starfish(seed):
-    rng = np.random.default_rng(seed)
-
-    def pose():
-        return {f"arm {i}": Bend(tuple(map(tuple, rng.normal(0, 12, (2, 3))))) for i in range(ARMS)}
-
-    return datasets.posed_pair("starfish", starfish_body(), pose(), pose(), (1500, 1500), rng)
-
-
 def test_a_starfish_is_turned_onto_itself():
     vertices, faces = closed_mesh(starfish_body(), starfish_body().box(), 1500, np.random.default_rng(0))
     of = subsample(sample_for_scoring(prepare(Mesh(vertices, faces), SMALL)), 400)
@@ -163,12 +150,6 @@ def test_a_starfish_is_turned_onto_itself():
         assert min(off) < 0.06 < 0.3 < max(off)
 
 
-def test_a_map_of_a_starfish_is_not_sure():
-    pair = starfish(0)
-    found = match(pair.source, pair.target, Config())
-    assert found.verdict == "ambiguous"
-
-
 def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     best = score_maps([Start("best", np.eye(20))], on)[0]
     best = replace(best, deformation_energy=0.01, strain=-0.1)
@@ -180,3 +161,168 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     assert _margin(best, worse) == pytest.approx(best.score - worse.score)
     unknown = replace(best, deformation_energy=None, strain=None)
     assert _margin(best, unknown) == best.score - unknown.score
+
+
+def wrong_area(one, symmetric):
+    """Share of the target's samples that go far from where they should."""
+    true = symmetric.source.mesh.vertices[symmetric.truth[symmetric.on.target.samples.vertices]]
+    off = np.linalg.norm(symmetric.on.source.positions[one.points] - true, axis=1)
+    return float(symmetric.on.target.areas[off > SCORE.moved_distance].sum())
+
+
+@pytest.fixture(scope="module")
+def exchanged(symmetric):
+    """The worst of the maps with two limbs exchanged."""
+    return max(exchange_limbs(symmetric.right, symmetric.on), key=lambda one: wrong_area(one, symmetric))
+
+
+def test_alike_extremities_are_exchanged_two_at_a_time(symmetric):
+    match: Any = match_of_map(symmetric.right.points, symmetric.on.source, symmetric.on.target)
+    unlike = extremity_difference(symmetric.on.source, symmetric.on.source)
+    assert np.diag(unlike) == pytest.approx(0.0)
+    some = exchanged_matches(match, symmetric.on.source)
+    assert some
+    for one in some:
+        i, j = np.flatnonzero(one.source != match.source)
+        assert (one.source[i], one.source[j]) == (match.source[j], match.source[i])
+        assert np.array_equal(one.target, match.target)
+        assert unlike[one.source[i], one.source[j]] <= _MAX_DIFFERENCE
+
+
+def test_only_the_limbs_are_exchanged(symmetric, exchanged):
+    assert wrong_area(symmetric.right, symmetric) < 0.02
+    assert 0.05 < wrong_area(exchanged, symmetric) < 0.5
+    assert exchanged.score < symmetric.right.score
+
+
+def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
+    monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", replace(SCORE, max_behind=99.0))
+    for begun in (symmetric.right, exchanged):
+        order = compare_exchanged(begun, symmetric.on, symmetric.copies)
+        assert len(order) == 2
+        assert wrong_area(order[0], symmetric) < 0.03 < wrong_area(order[1], symmetric)
+        assert order[0].score > order[1].score + SCORE.close_margin
+
+
+def test_an_exchange_that_comes_near_casts_doubt(symmetric, exchanged, monkeypatch):
+    monkeypatch.setattr(search, "candidates", lambda *_what, **_how: [symmetric.right])
+    plain = search_map(symmetric.source, symmetric.target, SMALL)
+    assert plain.doubts == ()
+
+    def searched(margin):
+        def near(best):
+            worse = replace(best.quality, descriptors=best.quality.descriptors + margin / SCORE.w_descriptors)
+            same = {name: getattr(best, name) for name in ("deformation_energy", "strain", "shot_error")}
+            return [best, replace(exchanged, quality=worse, **same)]
+
+        monkeypatch.setattr(search, "compare_exchanged", lambda best, *_: near(best))
+        return search_map(symmetric.source, symmetric.target, SMALL)
+
+    assert searched(2.6).doubts == ()
+    assert searched(1.7).doubts == pytest.approx((1.7,))
+    found = searched(0.12)
+    assert found.doubts == pytest.approx((0.12,))
+    assert (plain.verdict, found.verdict) == ("sure", "ambiguous")
+    assert found.scores[0] - found.scores[1] == pytest.approx(0.12)
+    trust = np.full(len(symmetric.truth), 0.9)
+    doubted = _doubt_exchanged(trust, symmetric.truth, found, symmetric.source.mesh)
+    moved = doubted < 0.5
+    assert 0.05 < moved.mean() < 0.5
+    assert doubted[~moved] == pytest.approx(0.9)
+    assert _doubt_exchanged(trust, symmetric.truth, plain, symmetric.source.mesh) == pytest.approx(0.9)
+
+
+def names(monkeypatch, pair, easy, on=None, landmarks=NO_LANDMARKS, descriptors=None):
+    """Kinds of rough maps that are tried, weights of the signs, and how many are refined further."""
+    tried, finalists = [], []
+
+    def rough(starts, *rest):
+        tried.extend(start.name.split()[0] for start in starts)
+        tried.extend(start.weights[0] for start in starts if start.name.startswith("signs"))
+        return original(starts[::5], *rest)
+
+    def fine(few, *_rest):
+        finalists.append(len(few))
+        return few
+
+    original = found_by.refine_coarse
+    with monkeypatch.context() as patch:
+        patch.setattr(found_by, "SCORE", replace(SCORE, early_exit_score=easy))
+        patch.setattr(found_by, "refine_coarse", rough)
+        patch.setattr(found_by, "refine_fine", fine)
+        candidates(pair.source, pair.target, SMALL, on or pair.samples, 0, landmarks=landmarks, descriptors=descriptors)
+    return set(tried), finalists[0]
+
+
+def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, symmetric):
+    tried, finalists = names(monkeypatch, symmetric, -np.inf)
+    assert tried == {"signs", "self-map", 0.0, 12.0}
+    assert finalists <= found_by._N_CLEAR_FINALISTS
+    tried, finalists = names(monkeypatch, symmetric, np.inf)
+    assert {"signs", "self-map", "perturbed", 0.0, 4.0, 12.0} < tried
+    assert finalists > found_by._N_CLEAR_FINALISTS
+
+
+def test_what_the_user_says_is_heard(monkeypatch, symmetric):
+    shapes = symmetric.source, symmetric.target
+    given = [np.random.default_rng(i).normal(size=(len(shape.mesh.vertices), 2)) for i, shape in enumerate(shapes)]
+    assert "perturbed" in names(monkeypatch, symmetric, -np.inf, descriptors=tuple(given))[0]
+    marks = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
+    both = [sample_for_scoring(shape, landmarks=at) for shape, at in zip(shapes, marks.T, strict=True)]
+    led = two_level_samples(*shapes, (both[0], both[1]), marks)
+    assert "perturbed" in names(monkeypatch, symmetric, -np.inf, led, marks)[0]
+
+
+def test_rivals_make_nothing_clear():
+    def of(distortion, guided):
+        quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
+        return Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided)
+
+    assert not has_clear_map([])
+    assert has_clear_map([of(1.0, True)])
+    assert not has_clear_map([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
+
+
+def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, symmetric):
+    source, target, C = symmetric.source, symmetric.target, symmetric.C
+    whole = to_points(C, source.basis, target.basis)
+    np.testing.assert_array_equal(alternative_maps([C], source.basis, target.basis)[0], whole)
+    monkeypatch.setattr(search_result, "MAX_CANDIDATES", 500)
+    few = alternative_maps([C], source.basis, target.basis)[0]
+    assert len(np.unique(few)) <= 500
+    off = np.linalg.norm(source.mesh.vertices[few] - source.mesh.vertices[whole], axis=1)
+    assert 0 < off.mean() < 2 / np.sqrt(500)
+
+
+@pytest.mark.parametrize(
+    ("distortion", "guided", "errors", "settled"),
+    [
+        (1.0, True, [0.0, 0.12], True),
+        (1.0, True, [], True),
+        (2.0, True, [0.0, 0.0], False),  # 1 - 6 · 2 is below
+        (1.0, False, [0.0, 0.0], False),
+        (1.0, True, [0.0, 0.121], False),
+    ],
+)
+def test_landmarks_that_a_clear_map_keeps_to_begin_no_other_maps(
+    monkeypatch, symmetric, distortion, guided, errors, settled
+):
+    quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
+    best = Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided, np.array(errors))
+    asked = []
+
+    class Ranked(Exception):
+        pass
+
+    def rank(_state):
+        raise Ranked
+
+    monkeypatch.setattr(search, "candidates_without_landmarks", lambda *_, **__: [best])
+    monkeypatch.setattr(search, "score_maps", lambda found, _pair: found)
+    monkeypatch.setattr(search, "rerefine", lambda found, _pair: found)
+    monkeypatch.setattr(search, "candidates", lambda *_, **__: asked.append(True) or [])
+    monkeypatch.setattr(search, "_rank", rank)
+    marks = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
+    with pytest.raises(Ranked):
+        search.search_map(symmetric.source, symmetric.target, SMALL, landmarks=marks)
+    assert bool(asked) != settled

@@ -45,10 +45,12 @@ def _summary(match: Match) -> dict[str, str]:
     return {str(name): str(value) for name, value in zip(names, values, strict=True)}
 
 
+SPHERE = sphere(1500)
+
+
 def _match(**fields: Any) -> Match:
-    mesh = sphere(1500)
-    points = np.arange(len(mesh.vertices))
-    known = {"source": mesh, "target": mesh, "verdict": "sure", "config": Config()}
+    points = np.arange(len(SPHERE.vertices))
+    known = {"source": SPHERE, "target": SPHERE, "verdict": "sure", "config": Config()}
     return Match(points, local_confidence=np.ones(len(points)), **known, **fields)
 
 
@@ -78,7 +80,6 @@ def test_the_summary_says_what_part_the_kernel_had() -> None:
 
 
 def test_the_summary_says_what_is_odd() -> None:
-    """One row each, and none of them where nothing is odd."""
     match = _match()
     n = len(match.target_to_source)
     usual = _summary(match)
