@@ -197,9 +197,9 @@ def fuzz_server(seconds: float, seed: int) -> int:
             matcher=lambda _pairs, _progress: same,
             map_output=folder / "m.npz",
         )
-        thread = threading.Thread(target=serving.server.serve_forever)
+        thread = threading.Thread(target=serving.serve_forever)
         thread.start()
-        where, token = f"{_LOOPBACK}:{serving.server.port}", serving.server.token
+        where, token = f"{_LOOPBACK}:{serving.port}", serving.token
 
         def request_to(route: str, data: Any) -> bytes:
             body = json.dumps(data)
@@ -217,7 +217,7 @@ def fuzz_server(seconds: float, seed: int) -> int:
             odd = request_to(routes[rng.integers(len(routes))], unlikely_json(rng))
             odd = odd if seed % 2 else damaged([good, chunked, odd][seed % 3], [good, chunked], rng)
             for request in (odd, good):
-                with socket.create_connection((_LOOPBACK, serving.server.port), timeout=10) as connection:
+                with socket.create_connection((_LOOPBACK, serving.port), timeout=10) as connection:
                     connection.sendall(request)
                     connection.shutdown(socket.SHUT_WR)
                     try:
@@ -228,7 +228,7 @@ def fuzz_server(seconds: float, seed: int) -> int:
                 if (request is good and b" 200 " not in reply[:20]) or b" 500 " in reply[:20]:
                     errors += 1
                     print(f"seed {seed}: {request!r:.300} was answered {reply!r:.200}")
-        serving.server.shutdown()
+        serving.shutdown()
         thread.join()
         serving.close()
     print(f"{sum(answers.values()):,} requests, answered {dict(answers)}; {errors} errors; next seed {seed}")

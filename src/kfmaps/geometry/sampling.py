@@ -121,7 +121,7 @@ def stratified_vertices(
 ) -> np.ndarray:
     """Return the vertices of :func:`stratified_samples`, (q,) int64, in a fraction of its time.
 
-    The parameters are the same.
+    ``count``, ``rng`` and ``kept``: as there.
     """
     candidates, _, chosen = _strata(basis, count, rng, _STRATA_DIMENSIONS)
     return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)
