@@ -372,7 +372,7 @@ def test_names_are_saved_with_the_pairs_and_read_back(serve: Serve, tmp_path: Pa
     assert client.post("save", {"pairs": PAIRS, "names": names}).status == 200
     assert read_landmarks(tmp_path / "pairs.txt").tolist() == PAIRS
     assert read_landmark_names(tmp_path / "pairs.txt") == ["left # hand [1m", "głowa"]
-    for wrong in (["one"], "no list", [1, 2], ["x" * 61, ""]):
+    for wrong in (0, {"a": 1}, ["one"], "no list", [1, 2], ["x" * 61, ""]):
         assert client.post("save", {"pairs": PAIRS, "names": wrong}).status == 400
 
 

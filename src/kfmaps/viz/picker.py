@@ -237,8 +237,9 @@ class PickerServer(LocalServer):
 
     def _save(self, request: JsonObject) -> Reply:
         pairs, path = self._pairs(request), self.output
-        names = request.get("names", ())
-        if not all(isinstance(name, str) and len(name) <= _MAX_NAME for name in names):
+        names = request.get("names", [])
+        is_list = isinstance(names, list)
+        if not is_list or not all(isinstance(name, str) and len(name) <= _MAX_NAME for name in names):
             expected = f"texts of at most {_MAX_NAME} letters"
             raise refuse("names", expected, "something else", "give one for each pair")
 
