@@ -376,7 +376,7 @@ def test_all_placements_of_small_parts_and_of_two_parts_in_one_unit_are_register
 
     likely = SimpleNamespace(scale=1.0)
     monkeypatch.setattr(place_part, "try_scales", lambda *_: [likely])
-    monkeypatch.setattr(place_part, "_clear_candidate", lambda *_: None)
+    monkeypatch.setattr(place_part, "_clear_placements", lambda *_: [])
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "make_candidate", lambda one, _pair: one)
     monkeypatch.setattr(place_part, "candidates_at_scale", candidates_at_scale)
@@ -405,7 +405,7 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
     seen: list[float] = []
     likely = [SimpleNamespace(scale=scale) for scale in scales]
     monkeypatch.setattr(place_part, "try_scales", lambda *_: likely)
-    monkeypatch.setattr(place_part, "_clear_candidate", lambda *_: None)
+    monkeypatch.setattr(place_part, "_clear_placements", lambda *_: [])
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: likely)
     monkeypatch.setattr(
         place_part, "make_candidate", lambda one, _: seen.append(one.scale) or SimpleNamespace(registration=None)
@@ -419,17 +419,18 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
 
 
 @pytest.mark.parametrize(
-    ("score", "scale", "both", "agree", "clear"),
+    ("score", "scale", "both", "agree", "ahead", "clear"),
     [
-        (0.0, 0.5, False, 97, True),
-        (9.0, 0.9, False, 96, False),
-        (-0.1, 0.9, False, 100, False),
-        (9.0, 0.49, False, 100, False),
-        (9.0, 0.9, True, 100, False),
+        (0.0, 0.5, False, 97, 9.0, True),
+        (9.0, 0.9, False, 96, 9.0, False),
+        (-0.1, 0.9, False, 100, 9.0, False),
+        (9.0, 0.49, False, 100, 9.0, False),
+        (9.0, 0.9, True, 100, 9.0, False),
+        (9.0, 0.9, False, 100, 0.5, False),  # an alternative is nearly as good
     ],
 )
 def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_clear(
-    monkeypatch: pytest.MonkeyPatch, score: float, scale: float, both: bool, agree: int, clear: bool
+    monkeypatch: pytest.MonkeyPatch, score: float, scale: float, both: bool, agree: int, ahead: float, clear: bool
 ) -> None:
     """Its alternatives are looked for all the same."""
     each = np.arange(100)
@@ -458,9 +459,14 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
     monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
+    monkeypatch.setattr(place_part, "margin", lambda *_: ahead)
     line = np.abs(each[:, None] - each) * 0.05
     pair: Any = SimpleNamespace(
-        fixed_scale=False, both_partial=both, small_scale=None, whole=SimpleNamespace(distances=line)
+        fixed_scale=False,
+        both_partial=both,
+        small_scale=None,
+        whole=SimpleNamespace(distances=line),
+        part=SimpleNamespace(n_landmarks=0),
     )
     found = place_part._search_placements(pair, 0.9, 3, 0.0, False, lambda _done: None)
     assert found == ([one] if clear else [likely])

@@ -47,7 +47,7 @@ from kfmaps.matching.partial.scale_search import (
     search_scale,
     try_scales,
 )
-from kfmaps.matching.score import SCORE, by_score, select_distinct
+from kfmaps.matching.score import SCORE, by_score, select_distinct, verdict
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of the copy
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
@@ -143,8 +143,7 @@ def _search_placements(
 ) -> list[PartCandidate]:
     """Return registered placements, the best first; the parameters are those of :func:`place_part`.
 
-    The search ends early where the best supported placement at the scale of the files, or at any, is clear once it is
-    registered: then only its alternatives are looked for.
+    The search ends early where the best supported placement at the scale of the files, or at any, is clear.
     """
     scales = [ratio] if pair.fixed_scale and ratio else [*SCALES, *(LARGER_SCALES if pair.both_partial else ())]
     if not pair.fixed_scale and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
@@ -152,9 +151,9 @@ def _search_placements(
     supported: list[Placement] = []
     for some in ([ratio], scales) if ratio in scales[1:] else (scales,):
         supported = try_scales(pair, some)
-        clear = _clear_candidate(pair, supported[0])
-        if clear is not None:
-            return compare_alternatives([clear], pair)
+        found = _clear_placements(pair, supported[0])
+        if found:
+            return found
     if clear_only:
         raise NotClear
     likely = _likely_placements(pair, supported, scales, count)
@@ -169,21 +168,25 @@ def _search_placements(
     return compare_alternatives(found, pair)
 
 
-def _clear_candidate(pair: PartPair, placement: Placement) -> PartCandidate | None:
-    """Return a placement registered, ``None`` unless it leaves no doubt: by its score, and by another relaxation.
+def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidate]:
+    """Return a placement registered, with its alternatives; none unless it is clear and would be called "sure".
 
-    A score says little of a single limb that lies elsewhere; two relaxations rarely agree on it. A small part fits in
-    many places, and placements of two parts score less: neither is ever clear.
+    A score says little of a single limb that lies elsewhere. Two relaxations rarely agree on it, so another one has to
+    confirm the placement. A small part fits in many places, and placements of two parts score less: neither is clear.
     """
     if pair.both_partial:
-        return None
+        return []
     placement = refine_placement(pair, placement)
     found, numbers = make_candidate(placement, pair), SCORE.part
     if found.score < numbers.early_exit_score or found.registration.scale**2 < numbers.full_area:
-        return None
+        return []
     other = fit_scale(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
     apart = pair.whole.distances[placement.placed.match, other.placed.match]
-    return found if float((apart < numbers.distinct_distance).mean()) >= numbers.early_exit_agreement else None
+    if float((apart < numbers.distinct_distance).mean()) < numbers.early_exit_agreement:
+        return []
+    order = compare_alternatives([found], pair)
+    is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=numbers.calibration) == "sure"
+    return order if is_sure else []
 
 
 def candidate_placements(
