@@ -1000,8 +1000,9 @@ MUTANTS = tuple(
         ("< numbers.early_exit_agreement", "< 0.0", "test_parts_alternatives -k search_ends"),
         ("return best if is_clear or best.verdict", "return best if best.verdict", "test_parts -k may_be_a_whole"),
         # where landmarks begin no maps
-        ("return keeps_all and has_clear_map([best])", "return keeps_all", "test_symmetries"),
-        ("return keeps_all and has_clear_map([best])", "return has_clear_map([best])", "test_symmetries"),
+        ("return keeps_all and float(errors.mean())", "return float(errors.mean())", "test_symmetries"),
+        ("<= SCORE.max_mean_landmark_error and has_clear_map([best])", "<= 0.025", "test_symmetries"),
+        ("float(errors.mean()) <= SCORE.max_mean_landmark_error", "True", "test_symmetries"),
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (

@@ -297,11 +297,12 @@ def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, symmetr
 @pytest.mark.parametrize(
     ("distortion", "guided", "errors", "settled"),
     [
-        (1.0, True, [0.0, 0.12], True),
-        (1.0, True, [], True),
+        (1.0, True, [0.0, 0.05], True),
+        (1.0, True, [0.0, 0.051], False),
+        (1.0, True, [*[0.0] * 9, 0.12], True),
+        (1.0, True, [*[0.0] * 9, 0.121], False),
         (2.0, True, [0.0, 0.0], False),  # 1 - 6 · 2 is below
         (1.0, False, [0.0, 0.0], False),
-        (1.0, True, [0.0, 0.121], False),
     ],
 )
 def test_landmarks_that_a_clear_map_keeps_to_begin_no_other_maps(

@@ -185,12 +185,13 @@ def _rank_candidates(
 
 
 def _is_settled(best: Candidate) -> bool:
-    """Return whether the best map that was found without landmarks is clear and keeps to all of them.
+    """Return whether the best map that was found without landmarks is clear and keeps closely to all of them.
 
-    Then landmarks only refine it.
+    Then landmarks only refine it. From a map that is farther off they may lead to a better one.
     """
-    keeps_all = bool((best.landmark_errors <= SCORE.max_isometric_landmark_error).all())
-    return keeps_all and has_clear_map([best])
+    errors = best.landmark_errors
+    keeps_all = bool((errors <= SCORE.max_isometric_landmark_error).all())
+    return keeps_all and float(errors.mean()) <= SCORE.max_mean_landmark_error and has_clear_map([best])
 
 
 def _rank(state: SearchState) -> SearchState:
