@@ -996,6 +996,7 @@ MUTANTS = tuple(
         # where the search for a part ends early, and what comes before the full one
         ("(apart < numbers.distinct_distance)", "(apart > numbers.distinct_distance)", "test_parts_alternatives"),
         ("found.score < numbers.early_exit_score or", "", "test_parts_alternatives -k search_ends"),
+        ("supported[0].scale ** 2 >= SCORE.part.min_whole_area", "True", "test_parts_alternatives -k search_ends"),
         ("return order if is_sure else []", "return order", "test_parts_alternatives -k search_ends"),
         ("< numbers.early_exit_agreement", "< 0.0", "test_parts_alternatives -k search_ends"),
         ("return best if is_clear or best.verdict", "return best if best.verdict", "test_parts -k may_be_a_whole"),

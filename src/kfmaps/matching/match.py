@@ -109,8 +109,8 @@ def _detect_part(task: MatchTask) -> PartDetection:
 def _match_holed(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
     """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
 
-    A body with holes is matched well either way, one of other proportions only as a whole. The full search for a part
-    takes longer than all else, so it comes last.
+    A body with holes is matched well either way, one of other proportions only as a whole. Where little is missing the
+    full search for a part comes last, since it takes longer than all else.
     """
     part, as_wholes, is_clear = None, MatchPart(reason=_FIT_AS_WHOLES, suspected=True), True
     try:

@@ -94,7 +94,7 @@ def place_part(
     ``landmarks (l, 2)``: vertices of the part and of the whole. ``both_partial``: whether the whole may lack something
     too. ``progress``: is called with the share of the work that is done. ``least_scale``: where all likely placements
     are smaller, only the first of them is registered. ``clear_only``: raise :exc:`NotClear` where the search would
-    not end early.
+    not end early and the part seems to be most of the whole.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
@@ -154,7 +154,7 @@ def _search_placements(
         found = _clear_placements(pair, supported[0])
         if found:
             return found
-    if clear_only:
+    if clear_only and supported[0].scale ** 2 >= SCORE.part.min_whole_area:
         raise NotClear
     likely = _likely_placements(pair, supported, scales, count)
     worth = max((one.scale for one in likely), default=least_scale) >= least_scale
