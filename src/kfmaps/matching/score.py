@@ -101,7 +101,7 @@ class PartScoring:
     limb elsewhere up to 0.963 (research/parts.md)."""
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
-    min_whole_area: float = 0.8
+    min_whole_area: float = 0.7
     """Share of the area of the whole from which a part that is not clear is matched as a whole with holes first."""
     whole_overlap: float = 0.95
     """Share of the area of both shapes in the overlap from which neither is a part."""
