@@ -3,9 +3,10 @@
 1. Both shapes are prepared: cleaned, with their bases and descriptors (:mod:`kfmaps.shape`).
 2. Where one shape has much longer open boundaries than the other it may be a part of it. Then the part is placed on the
    whole (:mod:`~kfmaps.matching.partial.match_partial`).
-3. Otherwise, or where that match is not sure or not clear at once, the shapes are matched as wholes: a search
+3. Otherwise, or where that match is not sure, the shapes are matched as wholes: a search
    (:mod:`~kfmaps.matching.search`) or one fit (:mod:`~kfmaps.matching.fit`) gives a functional map, which is refined on
-   all vertices and registered (:mod:`~kfmaps.matching.finish`).
+   all vertices and registered (:mod:`~kfmaps.matching.finish`). Where little seems to be missing and no placement of
+   the part is clear at once, this is done before the full search for the part.
 4. Where distances around many vertices are not preserved by the result, other candidates of the search are finished
    too, and the best is kept.
 5. The most probable match is returned. Where a part was suspected and no match is sure, the match with the other shape
