@@ -142,16 +142,17 @@ def assess(
     target_to_source = check_map(target_to_source, len(source.vertices), partial=True)
     check_truth(truth, len(source.vertices), len(target_to_source))
 
-    def errors(target: np.ndarray, max_points: int | None = None) -> Evaluation:
-        step = 1 if max_points is None else -(-len(target) // max_points)
-        predicted = evaluate.truth_from_pairs(truth.source, target, target_to_source)
-        predicted, true = predicted[::step], truth.source[::step]
-        has_image = predicted >= 0
-        if not has_image.any():
-            raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
-        return evaluate.summarize_errors(evaluate.geodesic_errors(source, predicted[has_image], true[has_image]))
-
-    mirrored_errors = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
+    predicted, true = [evaluate.truth_from_pairs(truth.source, truth.target, target_to_source)], [truth.source]
+    if truth.mirrored is not None:
+        rows = slice(None, None, 1 if mirrored is None else -(-len(truth.mirrored) // mirrored))
+        predicted.append(evaluate.truth_from_pairs(truth.source, truth.mirrored, target_to_source)[rows])
+        true.append(truth.source[rows])
+    # Both at once: the graph of the surface takes longer than the distances.
+    distances = evaluate.geodesic_errors(source, np.concatenate(predicted), np.concatenate(true))
+    errors = [each[~np.isnan(each)] for each in np.split(distances, [len(truth.source)])[: len(true)]]
+    if any(len(each) == 0 for each in errors):
+        raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
+    direct, *others = map(evaluate.summarize_errors, errors)
     precise_errors = smoothness = None
     matched = target_to_source[truth.target] >= 0
     # A vertex that no face uses lies in no triangle.
@@ -168,7 +169,7 @@ def assess(
                 source, matched_mesh, np.maximum(target_to_source, 0) if points is None else points
             )
     coverage = evaluate.coverage(target_to_source, source)
-    return Accuracy(errors(truth.target), float(matched.mean()), coverage, mirrored_errors, precise_errors, smoothness)
+    return Accuracy(direct, float(matched.mean()), coverage, *(others or [None]), precise_errors, smoothness)
 
 
 @dataclass(frozen=True, eq=False)

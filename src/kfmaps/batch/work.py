@@ -39,7 +39,7 @@ from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare
 
 _ATTEMPTS, MAPS = "attempts", "maps"
-_MIRRORED_POINTS = 500  # points at which a map is compared with the mirrored truth
+_MIRRORED_POINTS = 100  # points at which a map is compared with the mirrored truth
 _EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)  # errors of a single shape or pair
 _DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too little memory"
 
