@@ -78,7 +78,8 @@ def multiplication_operators(basis: Basis, features: Array, block: int = 512, si
 
 def _new_products(phi: Array, _: Array | None) -> Array:
     """Return all products ``(k(k+1)/2, m)`` of two rows of ``phi (k, m)``."""
-    return namespace(phi).concat([phi[i : i + 1, :] * phi[i:, :] for i in range(phi.shape[0])])
+    rows, columns = np.triu_indices(phi.shape[0])
+    return take(phi, rows) * take(phi, columns)
 
 
 def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, check_positive, to_numpy
+from kfmaps._arrays import Array, check_count, check_positive, is_numpy, namespace, take, to_numpy
 from kfmaps.kernels.kernels import KernelLike, kernel_diagonal, kernel_matrix
 
 _Rng = int | np.random.Generator | None
@@ -23,43 +23,30 @@ def uniform(n: int, count: int, rng: _Rng = 0) -> np.ndarray:
 def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None = 50_000) -> np.ndarray:
     """Return farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
 
-    The first is a random row, each next one the row farthest from all taken. It stops early when every row equals a
+    The first is a random row, each next one the row farthest from all taken. There are fewer where every row equals a
     taken one. Of more rows ``X (n, d)`` than ``pool`` (but at least ``4 count``) that many are drawn first, with
     ``rng``, so that the cost does not grow with n.
     """
-    X = to_numpy(X)
-    check_count(count, "sample count", high=len(X))
+    n = X.shape[0]
+    check_count(count, "sample count", high=n)
     draw = np.random.default_rng(rng)
-    if pool is not None and len(X) > max(pool, 4 * count):
-        drawn = draw.choice(len(X), size=max(pool, 4 * count), replace=False)
-        return drawn[farthest_descriptors(X[drawn], count, draw, None)]
-    X = X - X.mean(axis=0)
-    squares = np.einsum("ij,ij->i", X, X)
-    # Most rows turn out in single precision not to be nearer; squared distances are wrong by ``slack`` there at most.
-    size = np.sqrt(squares.max()) or 1.0
-    single, slack = (X / size).astype(np.float32), 2.02 * (X.shape[1] + 2) * 2.0**-24 * size**2
-    taken = np.empty(count, dtype=np.int64)
-    nearest, owner = np.full(len(X), np.inf), np.zeros(len(X), dtype=np.int64)
-    following = int(draw.integers(len(X)))
-    for i in range(count):
-        taken[i] = following
-        apart = squares[taken[: i + 1]] + squares[following] - 2 * (X[taken[: i + 1]] @ X[following])
-        # A row that is at most half as far from the one taken as that is from the new one is not nearer to the new one.
-        rows = np.flatnonzero(4 * nearest > apart[owner])
-        about = squares[rows] + squares[following] - 2 * size**2 * (single[rows] @ single[following])
-        rows = rows[about < nearest[rows] + slack]
-        away = X[rows] @ X[following]
-        away *= -2
-        away += squares[rows]
-        away += squares[following]
-        nearer = away < nearest[rows]
-        rows = rows[nearer]
-        nearest[rows], owner[rows] = away[nearer], i
-        nearest[following] = -np.inf
-        following = int(np.argmax(nearest))
-        if nearest[following] <= 1e-14 * squares.max():
-            return taken[: i + 1]
-    return taken
+    if pool is not None and n > max(pool, 4 * count):
+        drawn = draw.choice(n, size=max(pool, 4 * count), replace=False)
+        return drawn[farthest_descriptors(take(X, drawn), count, draw, None)]
+    xp = namespace(X)
+    X = np.ascontiguousarray(X) if is_numpy(X) else X  # a row of a column-major array takes as long as all of it
+    X = X - xp.mean(X, axis=0, keepdims=True)
+    squares = xp.sum(X * X, axis=1)
+    following, nearest = xp.asarray([int(draw.integers(n))], device=X.device), xp.full_like(squares, xp.inf)
+    taken, distances = [], []  # left on the device until the end
+    for _ in range(count):
+        taken.append(following)
+        row = xp.take(X, following, axis=0)[0, :]
+        nearest = xp.minimum(nearest, squares + xp.sum(row * row) - 2 * (X @ row))
+        following = xp.reshape(xp.argmax(nearest), (1,))
+        distances.append(xp.take(nearest, following))
+    is_new = to_numpy(xp.concat(distances)) > 1e-14 * float(xp.max(squares))  # whether a row other than those follows
+    return to_numpy(xp.concat(taken))[: 1 + int(np.argmin([*is_new[:-1], False]))]
 
 
 def pivoted_cholesky(
