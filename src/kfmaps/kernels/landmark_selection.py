@@ -36,16 +36,19 @@ def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None =
     xp = namespace(X)
     X = np.ascontiguousarray(X) if is_numpy(X) else X  # a row of a column-major array takes as long as all of it
     X = X - xp.mean(X, axis=0, keepdims=True)
-    squares = xp.sum(X * X, axis=1)
-    following, nearest = xp.asarray([int(draw.integers(n))], device=X.device), xp.full_like(squares, xp.inf)
+    squares = xp.sum(X * X, axis=1)[:, None]
+    ones = xp.ones_like(squares)
+    # The squared distances of all rows from row i are ``rows @ columns[i]``.
+    rows, columns = xp.concat([X, squares, ones], axis=1), xp.concat([-2 * X, ones, squares], axis=1)
+    following, nearest = xp.asarray([int(draw.integers(n))], device=X.device), xp.full_like(squares[:, 0], xp.inf)
     taken, distances = [], []  # left on the device until the end
     for _ in range(count):
         taken.append(following)
-        row = xp.take(X, following, axis=0)[0, :]
-        nearest = xp.minimum(nearest, squares + xp.sum(row * row) - 2 * (X @ row))
+        nearest = xp.minimum(nearest, rows @ xp.take(columns, following, axis=0)[0, :])
         following = xp.reshape(xp.argmax(nearest), (1,))
-        distances.append(xp.take(nearest, following))
-    is_new = to_numpy(xp.concat(distances)) > 1e-14 * float(xp.max(squares))  # whether a row other than those follows
+        distances.append(xp.max(nearest))
+    rounding = 4 * (X.shape[1] + 10) * float(xp.finfo(X.dtype).eps * xp.max(squares))
+    is_new = to_numpy(xp.stack(distances)) > rounding  # whether a row that differs from those taken follows
     return to_numpy(xp.concat(taken))[: 1 + int(np.argmin([*is_new[:-1], False]))]
 
 
