@@ -133,8 +133,9 @@ def _strongest(gram: Array, rtol: float) -> Array:
 
     PyTorch takes them for constants, since eigenvectors of equal eigenvalues have no derivative.
     """
-    energy, rotation = np.linalg.eigh(to_numpy(gram))
-    energy = energy.clip(min=0.0)
+    gram = like(to_numpy(gram), gram)
+    values, rotation = namespace(gram).linalg.eigh(gram)
+    energy = to_numpy(values).clip(min=0.0)
     dropped = np.cumsum(energy)
     keep = np.flatnonzero((dropped > rtol * dropped[-1]) & (energy > 1e-15 * energy[-1]))[::-1]
-    return like(take(rotation, keep, axis=1), gram)
+    return take(rotation, keep, axis=1)
