@@ -51,8 +51,12 @@ MUTANTS = tuple(
         ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
         ("spectrum > least * top", "spectrum > 0.1 * least * top", f"{FORMULAS} -k dropped"),
         ("like(1 / np.sqrt(spectrum[keep]), samples)", "like(1 / spectrum[keep], samples)", "test_nystrom"),
-        ("away += squares[following]", "away += squares", "test_nystrom"),
-        ("following = int(np.argmax(nearest))", "following = int(np.argmin(nearest))", "test_nystrom"),
+        ("xp.concat([-2 * X, ones, squares], axis=1)", "xp.concat([-2 * X, squares, ones], axis=1)", "test_nystrom"),
+        (
+            "following = xp.reshape(xp.argmax(nearest), (1,))",
+            "following = xp.reshape(xp.argmin(nearest), (1,))",
+            "test_nystrom",
+        ),
         ("column / np.sqrt(column[pivot])", "column / column[pivot]", "test_nystrom"),
         ("_drawn(residual**power, draw)", "_drawn(residual, draw)", "test_nystrom -k proportion"),
         ("residual - factor[:, i] ** 2", "residual - np.abs(factor[:, i])", "test_nystrom"),
@@ -511,7 +515,7 @@ MUTANTS = tuple(
         ("areas[cosine < 0.3].sum()", "areas[cosine > 0.3].sum()", "test_parts_registration"),
         ("on = areas * inside\n", "on = areas\n", "test_parts_registration", "matching/partial/registration"),
         ("replace(copy, mesh=found.rest)", "copy", "test_parts_registration"),
-        ("np.flatnonzero(4 * nearest > apart", "np.flatnonzero(nearest > apart", "test_nystrom"),
+        ("4 * (X.shape[1] + 10) * float(xp.finfo", "-4 * (X.shape[1] + 10) * float(xp.finfo", "test_nystrom"),
         (
             "whole.on_boundary) & (found.distances > _BEYOND)",
             "whole.on_boundary) | (found.distances > _BEYOND)",

@@ -61,6 +61,7 @@ def test_a_surface_and_its_own_cloud_are_alike() -> None:
         quality = map_quality(C, sample_for_scoring(source), sample_for_scoring(target))
         assert quality.score > -1.2
         assert quality.local_distortion < 0.15
+        assert quality.orientation == 0.0
         assert np.median(local_confidence(source.mesh, target.mesh, truth)) > 0.88
 
 

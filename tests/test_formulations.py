@@ -355,6 +355,9 @@ def test_terms_and_penalties_between_rotated_bases(numbers):
     assert value(term, U_t @ C @ U_s.T) == pytest.approx(value(plain, C))
     one = np.eye(C.size).reshape(-1, *C.shape)
     np.testing.assert_allclose(term.diagonal().ravel(), [inner(e, term.apply(e)) for e in one], atol=1e-12)
+    V_t, V_s = (nearest_orthogonal(rng.normal(size=(k, k))) for k in C.shape)
+    expected = [inner(V_t @ e @ V_s.T, term.apply(V_t @ e @ V_s.T)) for e in one]
+    np.testing.assert_allclose(term.diagonal(V_t, V_s).ravel(), expected, atol=1e-12)
     penalty = sparse_penalty(C, 1e-2)
     rotated = RotatedPenalty(penalty, U_t, U_s)
     assert rotated.value(U_t @ C @ U_s.T) == pytest.approx(penalty.value(C))

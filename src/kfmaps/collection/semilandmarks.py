@@ -55,16 +55,14 @@ def slide_semilandmarks(
         matrix += 1e-10 * np.trace(matrix) / len(rows) * np.eye(len(rows))  # what does not bend does not slide
         steps = -solve(matrix, (tangents * (energy @ slid)[rows]).sum(axis=1), assume_a="pos")
         steps *= min(1.0, longest / max(np.abs(steps / np.concatenate([path.gaps() for path in paths])).max(), 1e-300))
-        new, before = slid.copy(), [path.at for path in paths]
-        while np.abs(steps).max() > tolerance * max(path.length for path in paths):
-            for path, at, step in zip(paths, before, np.split(steps, ends), strict=True):
-                path.at = at + step
-                new[path.rows] = path.spline(path.at)
-            value = float(np.einsum("ia,ij,ja->", new, energy, new))
-            if value < least:
-                break
-            steps = steps / 2
-        else:
+        if np.abs(steps).max() <= tolerance * max(path.length for path in paths):
+            break
+        new = slid.copy()
+        for path, step in zip(paths, np.split(steps, ends), strict=True):
+            path.at = path.at + step
+            new[path.rows] = path.spline(path.at)
+        value = float(np.einsum("ia,ij,ja->", new, energy, new))
+        if not value < least:
             break
         slid, least = new, value
     return np.where(is_present[:, None], slid, points)
