@@ -93,7 +93,7 @@ class Browser:
     def requests(self) -> list[str]:
         events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         urls = [e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"]
-        return [url for url in urls if not url.startswith(("data:", "blob:", "chrome:"))]
+        return [url for url in urls if not url.startswith(("data:", "blob:", "chrome:", "chrome-untrusted:"))]
 
     def place(self, side: str, vertex: int) -> tuple[int, int]:
         at = self.run("return kfmaps.project(arguments[0], arguments[1])", side, int(vertex))
