@@ -1021,7 +1021,7 @@ MUTANTS = tuple(
             "test_nonrigid -k held",
         ),
         # faces turned outward
-        ("volume < -_MIN_VOLUME * areas.sum() ** 1.5", "volume < 0", "test_face_orientation -k without_an_inside"),
+        ("volume < -min_volume * areas.sum() ** 1.5", "volume < 0", "test_face_orientation -k without_an_inside"),
         ("np.cross(tails, centres[loop])", "np.cross(tails, 0 * centres[loop])", "test_face_orientation -k open_box"),
         ("np.where(result, areas, -areas)", "np.where(result, areas, 0)", "test_face_orientation -k open_sheet"),
         (

@@ -24,7 +24,7 @@ from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
-from kfmaps.matching.partial.place_part import NotClear, _same_units, place_part
+from kfmaps.matching.partial.place_part import NotClear, PartTask, _same_units, place_part
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
     Assignment,
@@ -237,8 +237,8 @@ def test_a_part_is_placed_in_units_of_the_whole(small, monkeypatch, which):
     large = prepare(Mesh(3.0 * blob(200).vertices, blob(200).faces), SMALL, name="large")
     seen = []
 
-    def place(*_, ratio, **__):
-        seen.append(ratio)
+    def place(task, **_):
+        seen.append(task.ratio)
         raise InvalidInput("that is enough")
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
@@ -259,10 +259,10 @@ def test_two_parts_are_placed_by_coarse_copies_and_their_landmarks(pair, monkeyp
     known = np.flatnonzero(true >= 0)
     rows = known[np.linspace(0, len(known) - 1, 4).astype(int)]
     sizes = [np.sqrt(surface_area(mesh)) for mesh in (pair.target, whole)]
-    config = replace(SMALL, partial=Partial("both", scale, samples=100, whole_samples=300))
+    settings = Partial("both", scale, samples=100, whole_samples=300)
     meshes = unit_area(pair.target), unit_area(whole)
     marks, ratio = np.stack([rows, true[rows]], axis=1), float(sizes[0] / sizes[1])
-    found = place_part(*meshes, config, ratio=ratio, landmarks=marks, both_partial=True)
+    found = place_part(PartTask(*meshes, settings, ratio, both_partial=True), marks)
     off = np.linalg.norm(found.registration.vertices - meshes[1].vertices[true], axis=1)
     assert off[known].mean() < 0.06
     assert found.registration.scale == pytest.approx(ratio, rel=1e-9 if scale == "fixed" else 0.1)

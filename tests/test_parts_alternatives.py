@@ -10,7 +10,7 @@ from scipy.spatial import KDTree
 
 from conftest import SMALL
 from kfmaps import datasets
-from kfmaps.config import Config, Partial
+from kfmaps.config import Partial
 from kfmaps.datasets import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.geodesics import farthest_geodesic
@@ -182,7 +182,8 @@ def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(
     for name, result in results.items():
         monkeypatch.setattr(place_part, name, lambda *_, _result=result: _result)
     triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
-    assert place_part.place_part(triangle, triangle, Config()).scores == (5 + 2 * COST, 4 + 2 * COST)
+    task = place_part.PartTask(triangle, triangle, Partial())
+    assert place_part.place_part(task).scores == (5 + 2 * COST, 4 + 2 * COST)
 
 
 @pytest.mark.parametrize(
@@ -383,7 +384,7 @@ def test_all_placements_of_small_parts_and_of_two_parts_in_one_unit_are_register
     monkeypatch.setattr(place_part, "compare_alternatives", compared)
     triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
     with pytest.raises(StopIteration):
-        place_part.place_part(triangle, triangle, Config(), ratio=ratio, both_partial=both)
+        place_part.place_part(place_part.PartTask(triangle, triangle, Partial(), ratio, both))
     assert seen == [[likely] + [ratio] * known]
 
 
@@ -414,7 +415,7 @@ def test_where_all_placements_are_too_small_the_first_alone_is_registered(
     monkeypatch.setattr(place_part, "_register_fully", left("last"))
     triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
     with pytest.raises(End, match=ends):
-        place_part.place_part(triangle, triangle, Config(), least_scale=0.5)
+        place_part.place_part(place_part.PartTask(triangle, triangle, Partial(), least_scale=0.5))
     assert seen == tried
 
 
@@ -468,13 +469,16 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
         whole=SimpleNamespace(distances=line),
         part=SimpleNamespace(n_landmarks=0),
     )
-    found = place_part._search_placements(pair, 0.9, 3, 0.0, False, lambda _done: None)
+    triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
+    task = place_part.PartTask(triangle, triangle, Partial(candidates=3), 0.9)
+    found = place_part._search_placements(pair, task, lambda _done: None)
     assert found == ([one] if clear else [likely])
     assert scales_tried[0] == [0.9]  # the scale of the files comes first
     assert len(scales_tried) == (1 if clear else 2)
     if not clear:
         one.scale = 0.836  # of less than 70 % of the area: a part rather than a whole with holes
-        assert place_part._search_placements(pair, 0.9, 3, 0.0, True, lambda _done: None) == [likely]
+        task = replace(task, clear_only=True)
+        assert place_part._search_placements(pair, task, lambda _done: None) == [likely]
         one.scale = 0.837
         with pytest.raises(place_part.NotClear):
-            place_part._search_placements(pair, 0.9, 3, 0.0, True, lambda _done: None)
+            place_part._search_placements(pair, task, lambda _done: None)

@@ -30,15 +30,10 @@ EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
 """Number of vertices up to which eigenfunctions are exact to rounding, and the eigensolver's tolerance above it."""
 MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
-_SUPPORT, _BALL_SUPPORT = 10_000, 550
-"""Most support points of SHOT on the whole surface, and in one ball on average. With 10,000 in all a ball has 340 on
-bodies, and 1,000 on skulls, whose walls are double."""
 _NO_SURFACE = (
     "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
     "told: give three landmarks, or a mesh made from the points"
 )
-_MAX_ROUGHNESS = 0.24
-"""Roughness above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much."""
 _NORMAL_WEIGHT = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
 
@@ -149,7 +144,8 @@ def prepare(
     timer = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud = len(mesh.faces) == 0
-    noisy = not is_cloud and roughness(cleaned.mesh.vertices, cleaned.mesh.faces) > _MAX_ROUGHNESS
+    max_roughness = 0.24  # above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much
+    noisy = not is_cloud and roughness(cleaned.mesh.vertices, cleaned.mesh.faces) > max_roughness
     if noisy:
         cleaned = replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))
     unit = unit_area(cleaned.mesh)
@@ -200,7 +196,8 @@ def _local_descriptors(
     vertices = stratified_vertices(basis, MAX_SHOT_VERTICES, 0)
     positions = mesh.vertices[vertices]
     neighbours = KDTree(positions).query_ball_point(positions[::8], radius, return_length=True)
-    samples = min(_SUPPORT, round(_BALL_SUPPORT * len(positions) / neighbours.mean()))
+    # With 10,000 support points in all a ball has 340 on bodies, and 1,000 on skulls, whose walls are double.
+    samples = min(10_000, round(550 * len(positions) / neighbours.mean()))
     sampled = shot(mesh, radius, samples=samples, at=vertices, progress=progress)
     points = np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
     distances, neighbours = KDTree(points[vertices]).query(points, k=3, workers=n_threads())

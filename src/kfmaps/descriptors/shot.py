@@ -27,7 +27,6 @@ _TIE = 1e-6  # relative difference up to which sums count as equal
 
 _PAIRS = 60_000
 """Pairs of a vertex and a support point in one block, whose work arrays fit the cache, which is twice as fast."""
-_EACH = 8  # pairs are counted at one vertex of so many
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +217,8 @@ def _blocks(vertices: np.ndarray, tree: KDTree, radius: float) -> list[np.ndarra
     """Vertex numbers in groups of neighbours with about ``_PAIRS`` support points each."""
     order = KDTree(vertices).indices
     # Neighbours have about as many: one of some says it for all.
-    counts = tree.query_ball_point(vertices[order[::_EACH]], radius, return_length=True).repeat(_EACH)[: len(order)]
+    each = 8  # pairs are counted at one vertex of so many
+    counts = tree.query_ball_point(vertices[order[::each]], radius, return_length=True).repeat(each)[: len(order)]
     block = np.cumsum(counts) // _PAIRS
     return np.split(order, np.flatnonzero(np.diff(block)) + 1)
 

@@ -17,8 +17,6 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import blocks, check_count, index_ranges
 from kfmaps._threads import parallel
 
-_GROUP_SIZE = 128  # most queries of one group
-_PATCH_PROBES = 8  # patches that a query probes
 N_PROBE = 16
 """Cells that a query probes."""
 N_PROBE_FAST = 4
@@ -47,17 +45,19 @@ def approximate_nearest(
     cell_centres = _means(rows, cell_starts)
     patch_centres = _means(rows, cell_starts[patch_starts])
     # Few queries among many points lie far apart: a large group of them would probe everything.
-    query_order, group_starts = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
+    group_size = 128  # most queries of one group
+    query_order, group_starts = _runs(queries, int(np.clip(group_size * 16 * q / p, 1, group_size)))
     nearest = np.empty(q, dtype=np.int64)
 
     def search(groups: slice) -> None:
+        patch_probes = 8  # patches that a query probes
         for i in range(groups.start, groups.stop):
             group = query_order[group_starts[i] : group_starts[i + 1]]
             x = _single(queries[group], centre, unit)
             # Relative to the mean of the group, differences of nearly equal distances lose no digits.
             mean = x.mean(axis=0)
             x -= mean
-            cells = _members(patch_starts, _probed(x, patch_centres - mean, _PATCH_PROBES))
+            cells = _members(patch_starts, _probed(x, patch_centres - mean, patch_probes))
             cells = cells[_probed(x, cell_centres[cells] - mean, probes)]
             candidates = _members(cell_starts, cells)
             nearest[group] = order[candidates[np.argmax(_scores(x, rows[candidates] - mean), axis=1)]]

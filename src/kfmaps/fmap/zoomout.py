@@ -29,8 +29,6 @@ MAX_CANDIDATES, _CANDIDATES_PER_SAMPLE = 8_000, 2
 MAX_EXACT_PAIRS = 2_000_000
 """Pairs of points above which steps on samples search approximately."""
 _RIDGE = 0.1  # damping of least squares on samples, in units of the sum of their areas
-_PAIRS_PER_BATCH = 1_000_000
-"""Pairs of points of a batch of :func:`batched_zoomout`, so that its score matrices stay in the cache."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,7 +257,8 @@ def batched_zoomout(
     phi_t = np.asarray(to_numpy(target.functions)[:, : sizes[-1]], dtype=np.float32)
     solver = solvers or (lambda k: pseudo_inverse(target, k))
     steps = [(k, solver(k)) for k in sizes[1:]]
-    count = max(1, _PAIRS_PER_BATCH // (len(phi_s) * len(phi_t)))
+    pairs_per_batch = 1_000_000  # pairs of points, so that the score matrices of a batch stay in the cache
+    count = max(1, pairs_per_batch // (len(phi_s) * len(phi_t)))
 
     def refine(batch: slice) -> tuple[np.ndarray, np.ndarray]:
         batch_cost = cost[batch] if cost is not None and cost.ndim == 3 else cost

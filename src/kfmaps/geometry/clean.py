@@ -23,8 +23,6 @@ from kfmaps.geometry.mesh import Mesh, face_areas
 
 _MAX_SPECK_AREA = 0.005
 """Area of a component, over that of the largest, below which it is a speck: that of one of 200 samples."""
-_MIN_SECOND_SIDES = 0.05
-"""Share of doubled faces above which they are second sides, as every face of a two-sided export has one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +115,8 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
     """
     faces, originals = part.mesh.faces, part.faces_to_original
     doubled = doubled_faces(faces)
-    if doubled.sum() > _MIN_SECOND_SIDES * len(faces):
+    min_share = 0.05  # of doubled faces above which they are second sides, as every face of a two-sided export has one
+    if doubled.sum() > min_share * len(faces):
         faces, originals = faces[~doubled], originals[~doubled]
         part = replace(part, mesh=Mesh(part.mesh.vertices, faces), faces_to_original=originals, doubled=doubled.sum())
     turned = inward_faces(part.mesh)

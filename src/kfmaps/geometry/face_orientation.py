@@ -8,12 +8,6 @@ import numpy as np
 from kfmaps.geometry.connectivity import half_edges_by_edge
 from kfmaps.geometry.mesh import Mesh, boundary_loops, face_areas
 
-_MAX_OPENING = 0.2
-"""Area of flat discs in the boundaries, over that of the surface, above which its volume says nothing about its
-orientation."""
-_MIN_VOLUME = 1e-3
-"""Least volume over area^(3/2) of a surface with an inside: a hundredth of a sphere's. A sheet has less."""
-
 
 def doubled_faces(faces: np.ndarray) -> np.ndarray:
     """Return which of ``faces (f, 3)`` have the corners of an earlier one, in any order, (f,) bool."""
@@ -51,10 +45,13 @@ def inward_faces(mesh: Mesh) -> np.ndarray:
         faces = turn_faces(faces, result)
         boundary, _ = _boundary_and_agreement(faces, n)
     loop, discs = boundary_loops(mesh.vertices, boundary)
-    if discs > _MAX_OPENING * areas.sum():
+    # Area of flat discs in the boundaries, over that of the surface, above which its volume says nothing.
+    max_opening = 0.2
+    if discs > max_opening * areas.sum():
         return result
     volume = _enclosed_volume(mesh.vertices, faces, boundary, loop)
-    return ~result if volume < -_MIN_VOLUME * areas.sum() ** 1.5 else result
+    min_volume = 1e-3  # over area^(3/2), of a surface with an inside: a hundredth of a sphere's. A sheet has less.
+    return ~result if volume < -min_volume * areas.sum() ** 1.5 else result
 
 
 def turn_faces(faces: np.ndarray, which: np.ndarray) -> np.ndarray:

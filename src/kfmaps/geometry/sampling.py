@@ -18,8 +18,6 @@ from kfmaps.kernels.landmark_selection import farthest_descriptors
 
 _DIMENSIONS = 39  # coordinates of the embedding: 40 functions, the constant among them
 _STRATA_DIMENSIONS = 8  # coordinates of the embedding that strata are cut by
-_POOL_SIZE = 8_000
-"""Most vertices that :func:`spectral_samples` chooses from, if they are four times as many as the samples."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +62,10 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     check_count(count, "sample count")
     candidates, embedding = _embedded(basis)
     pool = np.arange(len(candidates))
-    if len(pool) > max(_POOL_SIZE, 4 * count):
-        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(_POOL_SIZE, 4 * count), rng)
+    # Most vertices that :func:`spectral_samples` chooses from, if they are four times as many as the samples.
+    pool_size = 8_000
+    if len(pool) > max(pool_size, 4 * count):
+        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(pool_size, 4 * count), rng)
     chosen = pool[farthest_descriptors(embedding[pool], min(count, len(pool)), rng, None)]
     samples = _samples(basis, candidates, embedding, chosen)
     if not _are_crowded(samples, count):

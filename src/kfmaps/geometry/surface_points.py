@@ -21,9 +21,6 @@ from kfmaps.geometry.geodesic_graph import (
 from kfmaps.geometry.geodesics import shortest_paths
 from kfmaps.geometry.mesh import Mesh, unit_rows
 
-_DIRECT_EDGES = 16  # edges that a line between two points may cross; farther paths run over vertices, 0.3 % longer
-_VERTEX_EDGES = 4  # edges that a line from a point to a vertex may cross
-
 
 def surface_point_distances(
     mesh: Mesh, faces_a: np.ndarray, weights_a: np.ndarray, faces_b: np.ndarray, weights_b: np.ndarray
@@ -52,6 +49,8 @@ def surface_point_distances(
     straight = np.linalg.norm(points_a - points_b, axis=1)
     direct = np.where(faces_a == faces_b, straight, np.inf)  # length of the straight line over the surface
     links = []
+    direct_edges = 16  # edges that a line between two points may cross; farther paths run over vertices, 0.3 % longer
+    vertex_edges = 4  # edges that a line from a point to a vertex may cross
     for is_a, nodes, faces_of, points in (
         (True, n + np.arange(q), faces_a, points_a),
         (False, n + q + np.arange(q), faces_b, points_b),
@@ -61,11 +60,11 @@ def surface_point_distances(
         links.append((np.repeat(nodes, 3), corners.ravel(), distances.ravel()))
         index = np.flatnonzero(number[faces_of] >= 0)
         windows = _point_windows(mesh.vertices, proper, number[faces_of[index]], points[index], index)
-        for depth in range(_DIRECT_EDGES if is_a else _VERTEX_EDGES):
+        for depth in range(direct_edges if is_a else vertex_edges):
             if is_a:
                 _shorten_direct(direct, mesh.vertices, proper, start, opposite, windows, number[faces_b], weights_b)
             windows, source, vertex, distance = _cross_edges(mesh.vertices, proper, start, opposite, windows)
-            if depth < _VERTEX_EDGES:
+            if depth < vertex_edges:
                 links.append((nodes[source], vertex, distance))
             if is_a:  # windows that are farther than any useful line are dropped
                 likely = 2 * straight + 1e-12 * straight.max(initial=1.0)

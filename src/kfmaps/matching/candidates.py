@@ -52,7 +52,6 @@ touches a thigh."""
 N_PERTURBATIONS = 6
 """Initial maps that are random perturbations of the best coarse map."""
 _N_EARLY_WEIGHTS = 2  # weights of sign maps that are refined before a clear map ends the search for initial maps
-_N_COMPOSED = 3  # best distinct coarse maps that are composed with self-maps
 _N_FINALISTS, _N_CLEAR_FINALISTS = 10, 6
 """Distinct coarse maps that are refined on the fine samples, and with a clear map among them."""
 
@@ -90,7 +89,8 @@ def candidates(
         maps += refine_coarse(starts, coarse, functions)
     report(0.7)
     order = by_score(maps)
-    best = distinct_maps(order, coarse.source, SCORE.distinct_distance, _N_COMPOSED)
+    n_composed = 3  # best distinct coarse maps that are composed with self-maps
+    best = distinct_maps(order, coarse.source, SCORE.distinct_distance, n_composed)
     starts = symmetry_inits(best, coarse, functions)
     if not is_clear:
         C, values = order[0].functional_map, source.basis.eigenvalues

@@ -19,7 +19,6 @@ from kfmaps.geometry.mesh import Mesh
 
 _MIN_DISTANCE = 0.3
 """Distance, in √area, within which only the farthest point is an extremity: fingers are part of a hand."""
-_MAX_EXTREMITIES = 7  # a human has five, animals have six or seven
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +61,8 @@ def extremities(
     unit = float(mean_distance @ (mass / mass.sum())) or 1.0
     near = distances < _MIN_DISTANCE
     maxima = [i for i, d in enumerate(mean_distance) if d >= mean_distance[near[i]].max(initial=0.0)]
-    points = np.array(sorted(maxima, key=lambda i: -mean_distance[i])[:_MAX_EXTREMITIES], dtype=np.int64)
+    most = 7  # a human has five extremities, animals have six or seven
+    points = np.array(sorted(maxima, key=lambda i: -mean_distance[i])[:most], dtype=np.int64)
     every = at_all_vertices(mesh, rows[points], unit, graph)
     distances, gradient_cross = every.distances[:, rows], every.gradient_cross[:, :, rows]
     return Extremities(points, mean_distance[points] / unit, distances, gradient_cross, unit)

@@ -28,17 +28,6 @@ _N_COMPARED = 200
 """Matches whose features are compared."""
 _N_SAMPLES = 150
 """Samples at which they are compared."""
-_N_LIKELY = 32
-"""Matches that are returned."""
-_MIN_COMPLETE = 5
-"""Number of extremities from which one may be left out."""
-_UNMATCHED_COST = 0.15
-"""Cost of leaving out all extremities; that of one is its share. An ear of a dog has no partner on a cat."""
-_MAX_DISTANCE = 0.5
-"""Distance of an extremity's image from another extremity, over the mean distance of points, up to which a map matches
-the two."""
-_SHOT_WEIGHT = 0.02
-"""Weight of SHOT beside the features of extremities."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +81,8 @@ def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarr
     first = a.subsample(_N_SAMPLES), b.subsample(_N_SAMPLES)
     shot = None if shot is None else shot[:_N_SAMPLES, :_N_SAMPLES]
     costs = [float(extremity_cost(*first, match, shot).min(axis=1).mean()) for match in matches]
-    return [matches[i] for i in np.argsort(costs, kind="stable")[:_N_LIKELY]]
+    n_likely = 32  # matches that are returned
+    return [matches[i] for i in np.argsort(costs, kind="stable")[:n_likely]]
 
 
 def similar_matches(source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
@@ -106,13 +96,15 @@ def similar_matches(source: ShapeSamples, target: ShapeSamples) -> list[Extremit
     difference = extremity_difference(source, target)
     both = min(len(a.points), len(b.points))
     costs, matches = [], []
-    for size in (both, both - 1) if both >= _MIN_COMPLETE else (both,):
+    min_complete = 5  # number of extremities from which one may be left out
+    unmatched_cost = 0.15  # of all extremities; that of one is its share. An ear of a dog has no partner on a cat.
+    for size in (both, both - 1) if both >= min_complete else (both,):
         images = np.array(list(permutations(range(len(b.points)), size)))
         for chosen in combinations(range(len(a.points)), size):
             distances_s = between_s[np.ix_(chosen, chosen)]
             distances_t = between_t[images[:, :, None], images[:, None, :]]
             cost = np.abs(distances_t - distances_s).sum(axis=(1, 2)) / (size * (size - 1))
-            cost = cost + difference[np.array(chosen), images].mean(axis=1) + _UNMATCHED_COST * (both - size) / both
+            cost = cost + difference[np.array(chosen), images].mean(axis=1) + unmatched_cost * (both - size) / both
             best = np.argsort(cost, kind="stable")[:_N_COMPARED]
             costs.append(cost[best])
             matches += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
@@ -137,8 +129,9 @@ def extremity_cost(
     cost = -2 * F_t @ F_s.T
     cost += (F_t**2).sum(axis=1)[:, None]
     cost += (F_s**2).sum(axis=1)
+    shot_weight = 0.02  # beside the features of extremities
     if shot is not None:
-        cost += _SHOT_WEIGHT * shot
+        cost += shot_weight * shot
     return cost
 
 
@@ -151,7 +144,8 @@ def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples)
     distances = a.distances[:, points[b.points]]
     nearest_s, nearest_t = distances.argmin(axis=0), distances.argmin(axis=1)
     is_mutual = nearest_t[nearest_s] == np.arange(len(b.points))
-    matched = np.flatnonzero((distances.min(axis=0) < _MAX_DISTANCE) & is_mutual)
+    max_distance = 0.5  # from another extremity, over the mean distance of points, up to which a map matches the two
+    matched = np.flatnonzero((distances.min(axis=0) < max_distance) & is_mutual)
     return ExtremityMatch(nearest_s[matched], matched) if len(matched) >= _MIN_EXTREMITIES else None
 
 

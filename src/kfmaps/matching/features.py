@@ -26,9 +26,6 @@ from kfmaps.kernels.nystrom import nystrom
 from kfmaps.kernels.transformed import n_kernel_landmarks
 from kfmaps.shape import Shape, sample_shape
 
-_N_ENERGIES = 200
-"""Energies of the signature and of each landmark with the energy sampling "every-nth"."""
-
 
 @dataclass(frozen=True, eq=False)
 class Descriptors:
@@ -167,8 +164,9 @@ def spectral_shares(config: DescriptorConfig, n_landmarks: int) -> tuple[int, in
 
     With the energy sampling "every-nth" they are the numbers before every n-th is taken.
     """
+    n_energies = 200  # of the signature and of each landmark with "every-nth"
     if config.energy_sampling == "every-nth":
-        return 0 if config.signature == "none" else _N_ENERGIES, _N_ENERGIES
+        return 0 if config.signature == "none" else n_energies, n_energies
     if config.signature == "none":
         return 0, max(1, config.n_spectral // max(n_landmarks, 1))
     if n_landmarks == 0:

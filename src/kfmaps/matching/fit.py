@@ -27,9 +27,6 @@ from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_
 from kfmaps.matching.solve import Fit, solve_problem
 from kfmaps.shape import Shape
 
-_ROBUST_FUNCTIONS = 30
-"""Functions of the fit that robust weights come from: enough to recognize a wrong landmark, a tenth of the work."""
-
 
 @dataclass(frozen=True, eq=False)
 class FitPoints:
@@ -145,7 +142,8 @@ def robust_weights(
             raise refuse("loss per landmark", "landmarks with maps of their own", "none", "take it per descriptor")
     else:
         groups = np.arange(descriptors.source.shape[1])
-    k = min(_ROBUST_FUNCTIONS, config.basis.n_eigenfunctions)
+    enough = 30  # functions to recognize a wrong landmark, in a tenth of the time
+    k = min(enough, config.basis.n_eigenfunctions)
     small = [basis.truncate(k) for basis in bases]
     sides = (descriptors.source, descriptors.target)
     P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]

@@ -41,8 +41,6 @@ WEAK: CostWeights = (4.0, 12.0)
 STRONG: CostWeights = (12.0, 12.0)
 COARSE_WEIGHTS: tuple[CostWeights, ...] = ((0.0, 0.0), STRONG, WEAK)
 """Of sign maps in the coarse refinement; without any cost symmetric maps are found too."""
-FIT_WEIGHTS: tuple[CostWeights, ...] = (WEAK, STRONG)
-"""Of kernel fits and of maps composed with self-maps."""
 EXTREMITY_WEIGHTS: CostWeights = (4.0, 12.0, 30.0)
 EXTREMITY_FUNCTIONS = 12
 """Functions of the initial map of an extremity match."""
@@ -105,11 +103,12 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[CostWeights]) -> 
 
 def repeated_starts(maps: Iterable[tuple[str, np.ndarray, Fit | None]], pair: SamplePair) -> list[Start]:
     """Return starts of ``maps``, each with its name and fit, from several sizes and with several weights."""
+    weights = (WEAK, STRONG)  # of kernel fits and of maps composed with self-maps
     return [
         Start(f"{name}, from {size}, weight {w[0]:g}", C, True, w, size, fit=fit)
         for name, C, fit in maps
         for size in START_SIZES
-        for w in distinct_weights(FIT_WEIGHTS, pair)
+        for w in distinct_weights(weights, pair)
     ]
 
 

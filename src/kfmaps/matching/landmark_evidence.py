@@ -21,8 +21,6 @@ _HEAT_TIMES = (0.004, 0.02, 0.1)
 LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE = 1.0, 0.3
 """Weights of landmarks beside that of SHOT in the refinement on all vertices. The second is for unlike shapes, where
 heat spreads differently from a landmark."""
-_LIMB_WEIGHT = 0.8
-"""Weight of extremities beside that of SHOT in the same refinement."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +97,8 @@ def build_guidance(
     ``landmarks (l, 2)``; ``limbs``: guidance by extremities; ``shot``: guidance by SHOT, if it has been computed;
     ``lead``: weight of the landmarks beside SHOT.
     """
-    local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (_LIMB_WEIGHT, limbs)])
+    limb_weight = 0.8  # of extremities beside that of SHOT
+    local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (limb_weight, limbs)])
     if len(landmarks) == 0:
         return local
     heat = [heat_features(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]

@@ -21,8 +21,6 @@ from kfmaps.matching.score import SCORE, Candidate
 _MAX_DIFFERENCE = 0.3
 """Difference of two extremities (:func:`extremity_difference`) up to which their limbs are exchanged. The legs of one
 side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more."""
-_N_EXCHANGES = 4
-"""Pairs of limbs that are exchanged, the most similar."""
 
 
 def exchange_limbs(best: Candidate, pair: SamplePair) -> list[Candidate]:
@@ -54,7 +52,8 @@ def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[Extre
     difference = extremity_difference(source, source)[np.ix_(match.source, match.source)]
     pairs = sorted((difference[i, j], i, j) for i, j in combinations(range(len(match.source)), 2))
     exchanged = []
-    for _, i, j in (pair for pair in pairs[:_N_EXCHANGES] if pair[0] <= _MAX_DIFFERENCE):
+    most = 4  # pairs of limbs that are exchanged, the most similar
+    for _, i, j in (pair for pair in pairs[:most] if pair[0] <= _MAX_DIFFERENCE):
         images = match.source.copy()
         images[[i, j]] = images[[j, i]]
         exchanged.append(ExtremityMatch(images, match.target))

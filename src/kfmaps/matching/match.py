@@ -47,7 +47,6 @@ from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
-_HAS_MORE = "the other has more besides, as a scan with its floor"
 _FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as a part and a whole"
 
 
@@ -147,8 +146,9 @@ def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "ta
     least scale.
     """
     least = math.sqrt(SCORE.part.full_area)
+    reason = "the other has more besides, as a scan with its floor"
     with task.clock("the other as a part"):
-        opposite, _ = match_partial(task, which, _HAS_MORE, least)
+        opposite, _ = match_partial(task, which, reason, least)
     if (opposite.partial.scale or 0.0) < least:
         return best
     scale = best.partial.scale

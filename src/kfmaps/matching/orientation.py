@@ -15,9 +15,6 @@ from kfmaps.matching.sample_pair import SamplePair, mirrored_pair
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.matching.search_state import SearchState
 
-_N_REFINED = 3
-"""Maps to the mirror image that are refined again with its descriptors."""
-
 
 def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchState:
     """Compare the best map with maps to the mirror image where the settings ask for it, or where one may be better.
@@ -80,4 +77,5 @@ def mirror_candidates(found: list[Candidate], mirrored: SamplePair) -> list[Cand
     orientation.
     """
     images = by_score(score_maps([replace(c, uses_descriptors=True) for c in found], mirrored))
-    return by_score(rerefine(images[:_N_REFINED], mirrored) + images[_N_REFINED:])
+    n_refined = 3  # maps to the mirror image that are refined again with its descriptors
+    return by_score(rerefine(images[:n_refined], mirrored) + images[n_refined:])

@@ -31,8 +31,6 @@ from kfmaps.shape import Shape
 
 MAX_SURFACE_VERTICES = 6000
 """Vertices above which distances and orientation are computed on a coarse copy with that many."""
-ORIENTATION_FUNCTIONS = 20
-"""Functions in which orientation operators are compared."""
 N_ORIENTATION_OPERATORS = 10
 """Functions whose orientation operators are compared."""
 
@@ -300,7 +298,8 @@ def _ratio(numerator: float, denominator: float, scale: float, otherwise: float)
 def _orientation(C: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> float:
     if source.orientation is None or target.orientation is None:
         return 0.0
-    low = min(ORIENTATION_FUNCTIONS, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
+    most = 20  # functions in which orientation operators are compared
+    low = min(most, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
     last = min(N_ORIENTATION_OPERATORS + 1, C.shape[1], len(source.orientation))
     rows = min(len(target.orientation), C.shape[0])
     square = C[:low, :low]

@@ -31,8 +31,6 @@ from kfmaps.shape import Shape, mirror_image
 
 N_REGISTERED = 3
 """Distinct candidates that are registered."""
-N_NEAR_DUPLICATES = 5
-"""Candidates near a better one that are registered too."""
 RELATIVE_EVIDENCE = ("strain", "shot_error")
 """Evidence of a candidate that counts only against that of other candidates."""
 
@@ -113,7 +111,8 @@ def rerank_near_duplicates(
     A map with one limb wrong is near the right one, and may come before it by chance. Registration shows which of them
     is torn. Candidates whose scores are farther ``behind`` are left out.
     """
-    best = distinct_maps(by_preference(found), samples.source, distance, N_NEAR_DUPLICATES)
+    most = 5  # candidates near a better one that are registered too
+    best = distinct_maps(by_preference(found), samples.source, distance, most)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
     return by_preference([*ranked, *with_deformation_energy(more, proxies)])

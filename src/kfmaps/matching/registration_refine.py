@@ -50,8 +50,6 @@ N_REPAIRED = 2
 """First candidates that are repaired, whether or not they differ."""
 N_MATCHES = 3
 """Likeliest extremity matches that are repaired, unless a candidate has the same."""
-N_RETRIES = 2
-"""Repaired candidates after the best that may turn out better on all vertices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,7 +163,8 @@ def refine_by_registration(
     both, reference = [*repaired, *lagging], reference_values(repaired, min)
     order = by_preference([normalize_errors(c, reference) for c in both])
     number = dict(zip((id(c.functional_map) for c in both), (*finished, *given_up), strict=True))
-    others = distinct_maps(order, samples.source, SCORE.twin_distance, N_RETRIES + 1)[1:]
+    n_retries = 2  # repaired candidates after the best that may turn out better on all vertices
+    others = distinct_maps(order, samples.source, SCORE.twin_distance, n_retries + 1)[1:]
     opposite = SwappedRepair(repairs[number[id(order[0].functional_map)]], reference)
     return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), (*others, opposite)
 

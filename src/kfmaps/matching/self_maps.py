@@ -26,13 +26,7 @@ _MAX_CANDIDATES = 12
 """Least distorted self-maps of few functions that are refined further; symmetries are among the best eight."""
 _COARSE_FUNCTIONS, _FINE_FUNCTIONS = 14, 40
 """Functions of self-maps when they are chosen, and in the end."""
-_MAX_CHANGE = 0.03
-"""Mean change of distances, in √area, up to which a coarse self-map that rotates a pair is refined further."""
-_MAX_EIGENVALUE_RATIO = 1.15
-"""Ratio of two eigenvalues up to which they may be one: arms in other poses make 1.03 of it. People have 1.28."""
 _MIN_DISPLACEMENT = 0.1  # mean distance, in √area, by which a self-map must move points; less is the identity
-_MIN_DIFFERENCE = 0.08  # mean distance, in √area, between the images of two self-maps
-_MAX_KEPT = 2  # self-maps of either kind: from signs, and from rotated pairs
 
 
 def self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
@@ -77,11 +71,13 @@ def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
     likely = np.sort(np.argsort(_changes(starts, shape)[0], kind="stable")[:_MAX_CANDIDATES])
     kept = _least_distorted(starts[likely], shape, [], stop)
     pairs = _rotated_pairs(basis.eigenvalues[:middle])
+    # Mean change of distances, in √area, up to which a coarse self-map that rotates a pair is refined further.
+    max_change = 0.03
     if pairs:
         starts = np.concatenate([coarse(maps) for maps in pairs])
         changes, displacements = _changes(starts, shape)
         # Most return to the identity, which needs no more refinement.
-        likely = np.flatnonzero((changes < _MAX_CHANGE) & (displacements > _MIN_DISPLACEMENT))
+        likely = np.flatnonzero((changes < max_change) & (displacements > _MIN_DISPLACEMENT))
         kept += _least_distorted(starts[likely], shape, kept, stop)
     return [C for C, _ in kept]
 
@@ -93,8 +89,9 @@ def _rotated_pairs(eigenvalues: Array) -> list[np.ndarray]:
     angles = np.deg2rad(np.arange(30, 360, 30))
     rotations = np.stack([[np.cos(angles), -np.sin(angles)], [np.sin(angles), np.cos(angles)]]).transpose(2, 0, 1)
     pairs = []
+    max_ratio = 1.15  # of two eigenvalues that may be one: arms in other poses make 1.03 of it. People have 1.28.
     for i in range(1, min(4, len(values) - 1)):
-        if values[i + 1] < _MAX_EIGENVALUE_RATIO * values[i]:
+        if values[i + 1] < max_ratio * values[i]:
             maps = np.tile(np.eye(i + 2), (len(rotations), 1, 1))
             maps[:, i:, i:] = rotations
             pairs.append(maps)
@@ -114,13 +111,15 @@ def _least_distorted(
     maps, points = batched_zoomout(starts, basis, basis, (*range(starts.shape[1], stop, 4), stop))
     distortions = [map_distortion(C, shape, shape, at) for C, at in zip(maps, points, strict=True)]
     kept: list[tuple[np.ndarray, np.ndarray]] = []
+    min_difference = 0.08  # mean distance, in √area, between the images of two self-maps
+    most = 2  # self-maps of either kind: from signs, and from rotated pairs
     for i in np.argsort(distortions, kind="stable"):
-        if distortions[i] > _MAX_DISTORTION or len(kept) == _MAX_KEPT:
+        if distortions[i] > _MAX_DISTORTION or len(kept) == most:
             break
         images = shape.positions[points[i]]
         others = [shape.positions, *(other for _, other in (*known, *kept))]
         off = [float(np.linalg.norm(images - other, axis=1).mean()) for other in others]
-        if off[0] > _MIN_DISPLACEMENT and all(one > _MIN_DIFFERENCE for one in off[1:]):
+        if off[0] > _MIN_DISPLACEMENT and all(one > min_difference for one in off[1:]):
             kept.append((maps[i], images))
     return kept
 

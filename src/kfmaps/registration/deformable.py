@@ -18,8 +18,6 @@ from kfmaps.geometry.mesh import Mesh, unit_rows, vertex_areas, vertex_normals
 
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
-_MIN_COSINE = 0.3  # cosine of the normals of two closest points from which the pair counts; fully at 1
-_ALONG = 0.03  # weight of squared distances along the surface, against 1 along its normal
 LANDMARK_PULL = (10.0, 0.045)
 """Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades. Landmarks that
 are 2 % of √area off do no harm."""
@@ -44,7 +42,8 @@ class ClosestPointQuery:
         closest = closest_among(points, self.vertices, self.faces, *self.around.around(nearest))
         closest_normals = unit_rows(np.einsum("qi,qij->qj", closest.weights, self.normals[self.faces[closest.faces]]))
         cosine = np.einsum("qi,qi->q", closest_normals, normals)
-        return closest, closest_normals, np.clip((cosine - _MIN_COSINE) / (1 - _MIN_COSINE), 0.0, 1.0)
+        least = 0.3  # cosine of the normals of two closest points from which the pair counts; fully at 1
+        return closest, closest_normals, np.clip((cosine - least) / (1 - least), 0.0, 1.0)
 
 
 def closest_point_query(
@@ -86,7 +85,8 @@ class DataTerm:
         if self.normals is None:
             return self.weights[:, None] * z
         normal_parts = np.einsum("qi,qi->q", self.normals, z)
-        return self.weights[:, None] * (_ALONG * z + ((1 - _ALONG) * normal_parts)[:, None] * self.normals)
+        along = 0.03  # weight of squared distances along the surface, against 1 along its normal
+        return self.weights[:, None] * (along * z + ((1 - along) * normal_parts)[:, None] * self.normals)
 
 
 @dataclass(frozen=True, eq=False)

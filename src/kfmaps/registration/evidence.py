@@ -32,7 +32,6 @@ _QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigi
 """The registrations of all candidates, and of those with similar scores."""
 _MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
 """Energies are clipped to these: below, two meshes of one shape differ; above, nothing is left of the shape."""
-_MIN_FACES = 12  # faces that a proxy must have
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,11 +54,12 @@ class DeformationEnergy:
 
 def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
     """Return a coarse proxy of a shape with about so many ``vertices``; ``None`` where it has too few faces."""
-    if len(shape.mesh.faces) < _MIN_FACES:
+    min_faces = 12  # faces that a proxy must have
+    if len(shape.mesh.faces) < min_faces:
         return None
     n = len(shape.mesh.vertices)
     proxy = coarse_proxy(shape.mesh, stratified_vertices(shape.basis, vertices, 0) if n > vertices else np.arange(n))
-    return None if len(proxy.mesh.faces) < _MIN_FACES else proxy
+    return None if len(proxy.mesh.faces) < min_faces else proxy
 
 
 def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> DeformationEnergy:

@@ -9,9 +9,6 @@ from scipy.sparse.csgraph import dijkstra
 from kfmaps.geometry.connectivity import component_labels, mesh_edges
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 
-_MIN_JUMP = 0.15
-"""Distance in √area between the images of neighbouring vertices, above the length of their edge, from which it is
-torn."""
 _MAX_AREA = 0.05
 """Largest share of the area of a patch that is rejoined. A larger one may be a limb that an alternative has right."""
 
@@ -29,7 +26,10 @@ def rejoin_torn_patches(points: np.ndarray, source: Mesh, target: Mesh) -> np.nd
     a, b = mesh_edges(target.faces, n)[0].T
     lengths = np.linalg.norm(target.vertices[a] - target.vertices[b], axis=1)
     jumps = np.linalg.norm(source.vertices[points[a]] - source.vertices[points[b]], axis=1)
-    joined = jumps < _MIN_JUMP + lengths
+    # Distance in √area between the images of neighbouring vertices, above the length of their edge, from which it is
+    # torn.
+    min_jump = 0.15
+    joined = jumps < min_jump + lengths
     if joined.all():
         return points
     n_components, component = component_labels(n, a, b)

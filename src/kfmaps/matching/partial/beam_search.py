@@ -13,9 +13,6 @@ import numpy as np
 from kfmaps.matching.partial.relaxation_labeling import Assignment, DistanceBounds, consistency
 
 _ANCHORS = 16  # samples that are placed
-_WIDTH = 100  # placements that are kept in each step
-_N_PLACES = 400  # first samples of the whole, which are the places
-_MOST = 12  # placements that are returned
 _MIN_DISTANCE = 0.12  # distance between two places of some anchor, in √area of the whole, from which placements differ
 
 
@@ -52,12 +49,14 @@ def beam_search(
     one entry above all others.
     """
     anchors = _select_anchors(bounds, boundary_distance, _ANCHORS, n_landmarks)
-    m = min(_N_PLACES, similarity.shape[1])
+    n_places = 400  # first samples of the whole, which are the places
+    m = min(n_places, similarity.shape[1])
     distances = distances[:m, :m]
     score = similarity[anchors, :m]
     score = (score - score.max(axis=1, keepdims=True)).astype(np.float32)
     states = np.arange(m)[:, None]
     pairs, single = np.zeros(m, dtype=np.float32), score[0]
+    width = 100  # placements that are kept in each step
     for t in range(1, len(anchors)):
         fits = np.zeros((len(states), m), dtype=np.float32)
         for s, earlier in enumerate(anchors[:t]):
@@ -65,16 +64,17 @@ def beam_search(
             fits += consistency(bounds.upper[pair], bounds.lower[pair], distances[states[:, s]])
         # Mean consistency of the samples with each other, and their descriptors, with equal weights.
         total = (pairs[:, None] + fits) * np.float32(2 / t) + single[:, None] + score[t]
-        row, label = np.divmod(_largest(total, 20 * _WIDTH), m)
+        row, label = np.divmod(_largest(total, 20 * width), m)
         grown = np.concatenate([states[row], label[:, None]], axis=1)
-        kept = _select_different(grown, distances, _WIDTH)
+        kept = _select_different(grown, distances, width)
         row, label = row[kept], label[kept]
         states, pairs, single = grown[kept], pairs[row] + fits[row, label], single[row] + score[t, label]
     final = (2 * pairs / max(len(anchors) - 1, 1) + single) / len(anchors)
     order = np.argsort(-final, kind="stable")
     states, final = states[order], final[order]
     found = []
-    for i in _select_different(states, distances, _MOST, half=True):
+    most = 12  # placements that are returned
+    for i in _select_different(states, distances, most, half=True):
         match, trust = np.zeros(len(similarity), dtype=np.int64), np.zeros(len(similarity))
         match[anchors], trust[anchors] = states[i], 1.0
         found.append(Assignment(match, trust, float(final[i])))

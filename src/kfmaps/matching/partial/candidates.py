@@ -24,12 +24,6 @@ from kfmaps.matching.score import SCORE, PartEvidence, by_score, part_landmark_c
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales of alternatives, over that of the best placement: a wrong placement has a scale of its own."""
-_ALTERNATIVE_COST = 0.5
-"""Cost of a place near the one that a sample has, where the consistency of the sample is worth 2 at most."""
-_MIN_TRUST, _MIN_TRUST_OF_TWO = 0.01, 1e-4
-"""Least trust of samples in a registration; many samples of two parts have no place on the other."""
-_N_AT_SCALE = 4  # candidates at a known scale
-_N_ALTERNATIVES, _N_REFINED = 3, 3  # placements elsewhere that are registered, and distinct candidates that are refined
 _ROUNDS = (2, 5)  # how often a candidate is refined, at least and at most
 
 
@@ -48,7 +42,8 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     """Register the part quickly by a placement of all samples."""
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
-    trust = np.maximum(placement.placed.trust, _MIN_TRUST_OF_TWO if pair.both_partial else _MIN_TRUST)
+    least_trust = 1e-4 if pair.both_partial else 0.01  # many samples of two parts have no place on the other
+    trust = np.maximum(placement.placed.trust, least_trust)
     found = register_part(pair, placement.scale, points, normals, trust, quick=True)
     ends = pair.whole.mesh.vertices[pair.whole.landmarks]
     errors = np.linalg.norm(found.vertices[pair.part.landmarks] - ends, axis=1)
@@ -80,10 +75,11 @@ def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list
 
     A placement that was found by chance is far from its best form, and would lose against one that was refined.
     """
+    n_alternatives, n_refined = 3, 3  # placements that are registered, and distinct candidates that are refined
     best = by_score(found)[0]
-    likely = by_score(_alternative_placements(pair, best.registration.scale, best.points))[:_N_ALTERNATIVES]
+    likely = by_score(_alternative_placements(pair, best.registration.scale, best.points))[:n_alternatives]
     order = by_score([*found, *(make_candidate(refine_placement(pair, one), pair) for one in likely)])
-    chosen = select_distinct(order, _differ, _N_REFINED)
+    chosen = select_distinct(order, _differ, n_refined)
     rest = [one for one in order if all(_differ(one, other) for other in chosen)]
     least = chosen[0].score - SCORE.part.hopeless_margin
     refined = [_refine_candidate(one, pair) if one.score > least else one for one in chosen]
@@ -97,7 +93,8 @@ def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) ->
     """
     distances = np.linalg.norm(points[:, None] - pair.whole.mesh.vertices[pair.whole.samples][None], axis=2)
     limit, each = SCORE.part.distinct_distance, np.arange(len(points))
-    cost = _ALTERNATIVE_COST * (distances < limit).astype(np.float32)
+    near_cost = 0.5  # of a place near the one that a sample has, where the consistency of the sample is worth 2 at most
+    cost = near_cost * (distances < limit).astype(np.float32)
     cost[: pair.part.n_landmarks] = 0.0
 
     def place(scale: float) -> list[Placement]:
@@ -116,7 +113,8 @@ def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
     """
     rough = [one for params in TRIALS[:2] for one in rough_placements(pair, scale, params)]
     found = parallel(lambda one: make_candidate(one, pair), [place_all(pair, one) for one in rough])
-    return [_place_again(one, pair) for one in select_distinct(by_score(found), _differ, _N_AT_SCALE)]
+    most = 4  # candidates at the scale of the files
+    return [_place_again(one, pair) for one in select_distinct(by_score(found), _differ, most)]
 
 
 def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:

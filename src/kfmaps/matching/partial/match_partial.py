@@ -14,7 +14,7 @@ from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.finish import MatchTask
-from kfmaps.matching.partial.place_part import PlacedPart, place_part
+from kfmaps.matching.partial.place_part import PartTask, PlacedPart, place_part
 from kfmaps.matching.partial.registration import scale_mesh
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchPart, MatchRegistration, MatchScore
@@ -23,8 +23,6 @@ from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
-_HOLES_FROM = 0.9
-"""Share of the other's area from which a part is called a shape with holes."""
 
 
 def match_partial(
@@ -38,8 +36,7 @@ def match_partial(
 
     ``which``: the part. With "both" each may have what the other lacks; then the one with the smaller area is
     registered, or the target where the units cannot be compared. ``why``: the reason to take it for a part;
-    ``least_scale`` and
-    ``clear_only``: see :func:`kfmaps.matching.partial.place_part.place_part`.
+    ``least_scale`` and ``clear_only``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     source, target = task.shapes("preserving")
     for shape in (source, target):
@@ -50,18 +47,10 @@ def match_partial(
     part, whole = (target, source) if is_target else (source, target)
     pairs = task.pair.clean_landmarks(task.landmarks)
     marks = pairs[:, ::-1] if is_target else pairs
-    place_with = partial(
-        place_part,
-        part.mesh,
-        whole.mesh,
-        task.config,
-        ratio=ratio if is_target or ratio is None else 1 / ratio,
-        both_partial=which == "both",
-        rng=task.seed,
-        progress=lambda done: task.clock.report("parts", done),
-        least_scale=least_scale,
-        clear_only=clear_only,
-    )
+    ratio = ratio if is_target or ratio is None else 1 / ratio
+    settings = task.config.partial
+    placing = PartTask(part.mesh, whole.mesh, settings, ratio, which == "both", task.seed, least_scale, clear_only)
+    place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
     found, errors = _place_by_landmarks(place_with, marks, whole.mesh, numbers, which == "both")
     overlap, scale = found.overlap, found.registration.scale
@@ -147,6 +136,7 @@ def describe_part(which: str, scale: float, overlaps: tuple[np.ndarray, np.ndarr
         shares = overlaps[0].mean(), overlaps[1].mean()
         return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {reason}"
     share = scale**2
-    if share >= _HOLES_FROM:
+    min_share = 0.9  # of the other's area from which a part is called a shape with holes
+    if share >= min_share:
         return f"the {which} has holes ({max(1 - share, 0):.0%} is missing)"
     return f"the {which} is a part, {share:.0%} of the other's area; {reason}"

@@ -17,7 +17,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps._threads import parallel
-from kfmaps.config import Config
+from kfmaps.config import Partial
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh
@@ -51,11 +51,6 @@ from kfmaps.matching.score import SCORE, by_score, select_distinct, verdict
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of the copy
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
-_MAX_SIZE_RATIO = 2.0  # of two parts in one unit; an inch is 2.54 cm
-_SMALL_SCALES = (0.25, 0.5)  # scales by the files between which a part is a small one, below a quarter of the area
-_N_BEAMS = 4  # placements by beam searches that are refined
-_MIN_AGREEMENT = 2 / 3  # share of samples at the same place from which two placements would be registered alike
-_TRUSTED_DISTANCE = 0.02  # from the whole, in its √area, at which a registered sample is trusted by half
 
 
 class NotClear(Exception):
@@ -74,44 +69,48 @@ class PlacedPart:
     unguided: np.ndarray  # (n_p, 3): the part's vertices after a registration without landmarks
 
 
+@dataclass(frozen=True, eq=False)
+class PartTask:
+    """A part to be placed on a whole."""
+
+    part: Mesh  # at unit area, as the whole
+    whole: Mesh
+    settings: Partial
+    # √area of the part over that of the whole in their files; it is one of the scales that are tried, and the only one
+    # where units are the same (:func:`_same_units`).
+    ratio: float | None = None
+    both_partial: bool = False  # whether the whole may lack something too
+    rng: int = 0
+    least_scale: float = 0.0  # where all likely placements are smaller, only the first of them is registered
+    # Raise :exc:`NotClear` where the search would not end early and the part seems to be most of the whole.
+    clear_only: bool = False
+
+
 def place_part(
-    part: Mesh,
-    whole: Mesh,
-    config: Config,
-    *,
-    ratio: float | None = None,
-    landmarks: np.ndarray | None = None,
-    both_partial: bool = False,
-    rng: int = 0,
-    progress: Callable[[float], None] | None = None,
-    least_scale: float = 0.0,
-    clear_only: bool = False,
+    task: PartTask, landmarks: np.ndarray | None = None, progress: Callable[[float], None] | None = None
 ) -> PlacedPart:
     """Place a part on a whole.
 
-    ``part`` and ``whole``: at unit area. ``ratio``: √area of the part over that of the whole in their files; it is one
-    of the scales that are tried, and the only one where units are the same (:func:`_same_units`).
-    ``landmarks (l, 2)``: vertices of the part and of the whole. ``both_partial``: whether the whole may lack something
-    too. ``progress``: is called with the share of the work that is done. ``least_scale``: where all likely placements
-    are smaller, only the first of them is registered. ``clear_only``: raise :exc:`NotClear` where the search would
-    not end early and the part seems to be most of the whole.
+    ``landmarks (l, 2)``: vertices of the part and of the whole; ``progress``: is called with the share of the work that
+    is done.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
-    settings = config.partial
+    part, whole, settings, ratio, both_partial = task.part, task.whole, task.settings, task.ratio, task.both_partial
     fixed = _same_units(settings.scale, ratio, both_partial)
     if fixed and ratio is None:
         raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
     copies = [_coarse_copy(mesh, marks) for mesh, marks in ((part, pairs[:, 0]), (whole, pairs[:, 1]))]
     counts = settings.samples, settings.whole_samples
     samples = [
-        part_samples(copy.mesh, count, copy.owner[marks], rng)
+        part_samples(copy.mesh, count, copy.owner[marks], task.rng)
         for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
     ]
-    small = None if both_partial or ratio is None or not _SMALL_SCALES[0] < ratio < _SMALL_SCALES[1] else ratio
+    small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
+    small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
     report(0.15)
-    found = _search_placements(pair, ratio, settings.candidates, least_scale, clear_only, report)
+    found = _search_placements(pair, task, report)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
     unguided = (_register_fully(last, pair, report, guided=False) if len(pairs) else last).vertices[copies[0].owner]
@@ -129,22 +128,17 @@ def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
     Nothing bounds the scale of two parts, and the score prefers a wrong one: the pairs of
     `benchmarks/part_to_part.py` have errors of 5 at the scale of their files, and of 20 at any (research/parts.md).
     """
-    alike = both_partial and ratio is not None and 1 / _MAX_SIZE_RATIO <= ratio <= _MAX_SIZE_RATIO
+    most = 2.0  # ratio of the sizes of two parts in one unit; an inch is 2.54 cm
+    alike = both_partial and ratio is not None and 1 / most <= ratio <= most
     return scale == "fixed" or (scale == "auto" and alike)
 
 
-def _search_placements(
-    pair: PartPair,
-    ratio: float | None,
-    count: int,
-    least_scale: float,
-    clear_only: bool,
-    report: Callable[[float], None],
-) -> list[PartCandidate]:
-    """Return registered placements, the best first; the parameters are those of :func:`place_part`.
+def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float], None]) -> list[PartCandidate]:
+    """Return registered placements, the best first.
 
     The search ends early where the best supported placement at the scale of the files, or at any, is clear.
     """
+    ratio = task.ratio
     scales = [ratio] if pair.fixed_scale and ratio else [*SCALES, *(LARGER_SCALES if pair.both_partial else ())]
     if not pair.fixed_scale and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
         scales.append(ratio)
@@ -154,10 +148,10 @@ def _search_placements(
         found = _clear_placements(pair, supported[0])
         if found:
             return found
-    if clear_only and supported[0].scale ** 2 >= SCORE.part.min_whole_area:
+    if task.clear_only and supported[0].scale ** 2 >= SCORE.part.min_whole_area:
         raise NotClear
-    likely = _likely_placements(pair, supported, scales, count)
-    worth = max((one.scale for one in likely), default=least_scale) >= least_scale
+    likely = _likely_placements(pair, supported, scales, task.settings.candidates)
+    worth = max((one.scale for one in likely), default=task.least_scale) >= task.least_scale
     report(0.5)
     found = [make_candidate(one, pair) for one in (likely if worth else likely[:1])]
     if not worth:
@@ -200,7 +194,8 @@ def candidate_placements(
     rough = [*first]
     for params in TRIALS[1:]:
         rough += try_scales(pair, [one.scale for one in first[:2]], params)
-    return rough, by_score(search_scale(pair, scales))[:_N_BEAMS]
+    n_beams = 4  # placements by beam searches that are refined
+    return rough, by_score(search_scale(pair, scales))[:n_beams]
 
 
 def _scales_differ(one: Placement, other: Placement) -> bool:
@@ -221,7 +216,8 @@ def _likely_placements(pair: PartPair, supported: list[Placement], scales: list[
 
 def _places_differ(one: Placement, other: Placement) -> bool:
     """Return whether two placements differ at so many samples that they would be registered differently."""
-    return float((one.placed.match == other.placed.match).mean()) < _MIN_AGREEMENT
+    min_share = 2 / 3  # of samples at the same place from which two placements would be registered alike
+    return float((one.placed.match == other.placed.match).mean()) < min_share
 
 
 def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
@@ -237,7 +233,8 @@ def _register_fully(
     mesh, vertex_normals, samples = pair.whole.mesh, pair.whole.surface.normals, pair.part.samples
     places = closest_points(found.vertices[samples], mesh.vertices, mesh.faces)
     points, normals = places.points, vertex_normals[mesh.faces[places.faces]].mean(axis=1)
-    trust = found.inside[samples] * np.exp2(-((places.distances / _TRUSTED_DISTANCE) ** 2)) + 1e-3
+    half_trust = 0.02  # distance from the whole, in its √area, at which a registered sample is trusted by half
+    trust = found.inside[samples] * np.exp2(-((places.distances / half_trust) ** 2)) + 1e-3
     ends = pair.whole.landmarks if guided else pair.whole.landmarks[:0]
     points[: len(ends)], normals[: len(ends)] = mesh.vertices[ends], vertex_normals[ends]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)

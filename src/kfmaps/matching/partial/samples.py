@@ -15,11 +15,6 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
-_MIN_WEIGHT = 0.05  # of SHOT at samples of a small part that lie on its boundary
-_SHOT_SUPPORT = 10_000
-"""Support points of SHOT, half of those for a descriptor at every vertex. With fewer in large balls a person with holes
-was placed wrongly."""
-
 
 @dataclass(frozen=True, eq=False)
 class PartSurface:
@@ -56,8 +51,11 @@ class PartSamples(PartSurface):
 
     def shot(self, radius: float) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
+        # Support points, half of those for a descriptor at every vertex. With fewer in large balls a person with holes
+        # was placed wrongly.
+        support = 10_000
         if radius not in self.descriptors:
-            found = shot(self.mesh, radius, at=self.samples, samples=_SHOT_SUPPORT)
+            found = shot(self.mesh, radius, at=self.samples, samples=support)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
 
@@ -90,7 +88,8 @@ class PartPair:
         ``scale``: √area of the part over that of the whole; ``radius``: of SHOT, in √area of the whole.
         """
         fits = np.minimum(self.part.boundary_distance * np.float32(scale / radius), 1.0)
-        return np.maximum(fits / max(float(fits.max()), 1e-12), _MIN_WEIGHT)
+        min_weight = 0.05  # of samples that lie on the boundary
+        return np.maximum(fits / max(float(fits.max()), 1e-12), min_weight)
 
     def pair_consistency(self, scale: float, match: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the consistency of the distances of two parts, (q, q) from 0 to 1, and which pairs count, (q, q) bool.

@@ -30,12 +30,6 @@ LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further scales where both shapes are parts."""
 MIN_SCALE, MIN_MARKED_SCALE, MAX_SCALE = 0.25, 0.1, 1.6
 """Bounds of the scale, without and with landmarks: a part that shrinks fits nearly everywhere, unless it has some."""
-_SHOT_STEP = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, which placements of similar scales share
-_N_BEST_SCALES = 3  # scales whose beam searches are continued with all samples
-
-_MIN_CONSISTENCY, _ROUNDS = 0.8, 6
-"""Mean consistency with the others, over that of the best tenth, below which a sample of two parts is not trusted, and
-iterations to compute it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +75,8 @@ def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> n
 
 def _shot_scale(scale: float) -> float:
     """Return the nearest of the scales that SHOT is computed at."""
-    return float(SCALES[0] * _SHOT_STEP ** round(np.log(scale / SCALES[0]) / np.log(_SHOT_STEP)))
+    step = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, which placements of similar scales share
+    return float(SCALES[0] * step ** round(np.log(scale / SCALES[0]) / np.log(step)))
 
 
 def rough_placements(
@@ -123,7 +118,8 @@ def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
     """
     _compute_shot(pair, TRIALS[0])
     found = parallel(lambda scale: rough_placements(pair, scale, by_relaxation=False), scales)
-    best = sorted(found, key=lambda some: -some[0].placed.support)[:_N_BEST_SCALES]
+    n_best = 3  # scales whose beam searches are continued with all samples
+    best = sorted(found, key=lambda some: -some[0].placed.support)[:n_best]
     return parallel(lambda one: place_all(pair, one), [one for some in best for one in some])
 
 
@@ -150,11 +146,12 @@ def _consistent_trust(pair: PartPair, scale: float, placed: Assignment) -> np.nd
     means in place of sums, so that samples with few neighbours count as much.
     """
     fits, near = pair.pair_consistency(scale, placed.match)
+    least = 0.8  # mean consistency with the others, over that of the best tenth, from which a sample is trusted
     trust = np.minimum(placed.trust, 1.0)
-    for _ in range(_ROUNDS):
+    for _ in range(6):
         mean = fits @ trust / np.maximum(near @ trust, 1e-12)
         best = max(float(np.quantile(mean, 0.9)), 1e-12)
-        trust = np.clip((mean / best - _MIN_CONSISTENCY) / (1 - _MIN_CONSISTENCY), 0.0, 1.0)
+        trust = np.clip((mean / best - least) / (1 - least), 0.0, 1.0)
     trust[: pair.part.n_landmarks] = 1.0
     return trust
 
