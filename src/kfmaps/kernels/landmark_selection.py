@@ -33,14 +33,49 @@ def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None =
     if pool is not None and n > max(pool, 4 * count):
         drawn = draw.choice(n, size=max(pool, 4 * count), replace=False)
         return drawn[farthest_descriptors(take(X, drawn), count, draw, None)]
+    first = int(draw.integers(n))
+    return _farthest_rows(X, count, first) if is_numpy(X) else _farthest_rows_on_device(X, count, first)
+
+
+def _farthest_rows(X: np.ndarray, count: int, following: int) -> np.ndarray:
+    """Return ``count`` farthest rows of ``X (n, d)``, the first of them ``following``."""
+    X = X - X.mean(axis=0)
+    squares = np.einsum("ij,ij->i", X, X)
+    # Most rows turn out in single precision not to be nearer; squared distances are wrong by ``slack`` there at most.
+    size = np.sqrt(squares.max()) or 1.0
+    single, slack = (X / size).astype(np.float32), 2.02 * (X.shape[1] + 2) * 2.0**-24 * size**2
+    taken = np.empty(count, dtype=np.int64)
+    nearest, owner = np.full(len(X), np.inf), np.zeros(len(X), dtype=np.int64)
+    for i in range(count):
+        taken[i] = following
+        apart = squares[taken[: i + 1]] + squares[following] - 2 * (X[taken[: i + 1]] @ X[following])
+        # A row that is at most half as far from the one taken as that is from the new one is not nearer to the new one.
+        rows = np.flatnonzero(4 * nearest > apart[owner])
+        about = squares[rows] + squares[following] - 2 * size**2 * (single[rows] @ single[following])
+        rows = rows[about < nearest[rows] + slack]
+        away = X[rows] @ X[following]
+        away *= -2
+        away += squares[rows]
+        away += squares[following]
+        nearer = away < nearest[rows]
+        rows = rows[nearer]
+        nearest[rows], owner[rows] = away[nearer], i
+        nearest[following] = -np.inf
+        following = int(np.argmax(nearest))
+        if nearest[following] <= 1e-14 * squares.max():
+            return taken[: i + 1]
+    return taken
+
+
+def _farthest_rows_on_device(X: Array, count: int, first: int) -> np.ndarray:
+    """Do as :func:`_farthest_rows` with few large operations."""
     xp = namespace(X)
-    X = np.ascontiguousarray(X) if is_numpy(X) else X  # a row of a column-major array takes as long as all of it
     X = X - xp.mean(X, axis=0, keepdims=True)
     squares = xp.sum(X * X, axis=1)[:, None]
     ones = xp.ones_like(squares)
     # The squared distances of all rows from row i are ``rows @ columns[i]``.
     rows, columns = xp.concat([X, squares, ones], axis=1), xp.concat([-2 * X, ones, squares], axis=1)
-    following, nearest = xp.asarray([int(draw.integers(n))], device=X.device), xp.full_like(squares[:, 0], xp.inf)
+    following, nearest = xp.asarray([first], device=X.device), xp.full_like(squares[:, 0], xp.inf)
     taken, distances = [], []  # left on the device until the end
     for _ in range(count):
         taken.append(following)
