@@ -30,6 +30,7 @@ EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
 """Number of vertices up to which eigenfunctions are exact to rounding, and the eigensolver's tolerance above it."""
 MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
+_BALL_SUPPORT = 550  # most support points of SHOT in one ball on average
 _NO_SURFACE = (
     "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
     "told: give three landmarks, or a mesh made from the points"
@@ -197,7 +198,7 @@ def _local_descriptors(
     positions = mesh.vertices[vertices]
     neighbours = KDTree(positions).query_ball_point(positions[::8], radius, return_length=True)
     # With 10,000 support points in all a ball has 340 on bodies, and 1,000 on skulls, whose walls are double.
-    samples = min(10_000, round(550 * len(positions) / neighbours.mean()))
+    samples = min(10_000, round(_BALL_SUPPORT * len(positions) / neighbours.mean()))
     sampled = shot(mesh, radius, samples=samples, at=vertices, progress=progress)
     points = np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
     distances, neighbours = KDTree(points[vertices]).query(points, k=3, workers=n_threads())
