@@ -51,6 +51,8 @@ MUTANTS = tuple(
         ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
         ("spectrum > least * top", "spectrum > 0.1 * least * top", f"{FORMULAS} -k dropped"),
         ("like(1 / np.sqrt(spectrum[keep]), samples)", "like(1 / spectrum[keep], samples)", "test_nystrom"),
+        ("away += squares[following]", "away += squares", "test_nystrom"),
+        ("following = int(np.argmax(nearest))", "following = int(np.argmin(nearest))", "test_nystrom"),
         ("xp.concat([-2 * X, ones, squares], axis=1)", "xp.concat([-2 * X, squares, ones], axis=1)", "test_nystrom"),
         (
             "following = xp.reshape(xp.argmax(nearest), (1,))",
@@ -515,6 +517,7 @@ MUTANTS = tuple(
         ("areas[cosine < 0.3].sum()", "areas[cosine > 0.3].sum()", "test_parts_registration"),
         ("on = areas * inside\n", "on = areas\n", "test_parts_registration", "matching/partial/registration"),
         ("replace(copy, mesh=found.rest)", "copy", "test_parts_registration"),
+        ("np.flatnonzero(4 * nearest > apart", "np.flatnonzero(nearest > apart", "test_nystrom"),
         ("4 * (X.shape[1] + 10) * float(xp.finfo", "-4 * (X.shape[1] + 10) * float(xp.finfo", "test_nystrom"),
         (
             "whole.on_boundary) & (found.distances > _BEYOND)",

@@ -86,17 +86,17 @@ def test_samples_are_distinct_and_seeded(rng):
             assert rows.tolist() != other[name].tolist(), name
 
 
-def test_farthest_points_are_farthest(rng):
+def test_farthest_points_are_farthest(rng, asarray):
     X = rng.normal(size=(40, 3))
-    rows = farthest_descriptors(X, 12)
+    rows = farthest_descriptors(asarray(X), 12)
     for i in range(1, 12):
         distance = np.linalg.norm(X[:, None] - X[rows[:i]], axis=2).min(axis=1)
         assert distance[rows[i]] == pytest.approx(distance.max())
 
 
-def test_farthest_points_owe_nothing_to_single_precision(rng):
+def test_farthest_points_owe_nothing_to_single_precision(rng, asarray):
     X = rng.normal(size=(300, 5)) + 1e4 * (np.arange(300) % 2)[:, None]
-    rows, nearest = farthest_descriptors(X, 40), np.full(300, np.inf)
+    rows, nearest = farthest_descriptors(asarray(X), 40), np.full(300, np.inf)
     for before, following in pairwise(rows):
         nearest = np.minimum(nearest, ((X - X[before]) ** 2).sum(axis=1))
         assert following == nearest.argmax()
@@ -123,9 +123,9 @@ def test_random_pivots_are_drawn_in_proportion_to_powers_of_the_residual(power):
     np.testing.assert_allclose(found, residual / residual.sum(axis=1, keepdims=True) / 4, atol=0.04)
 
 
-def test_samplers_stop_when_nothing_is_left():
+def test_samplers_stop_when_nothing_is_left(asarray):
     X = np.repeat(np.eye(3), 5, axis=0)
-    assert len(farthest_descriptors(X, 10)) == 3
+    assert len(farthest_descriptors(asarray(X), 10)) == 3
     assert len(pivoted_cholesky(Gaussian(1.0), X, 10)) == 3
     assert len(pivoted_cholesky(Gaussian(1.0), X, 10, randomised=True)) == 3
 

@@ -169,7 +169,8 @@ def assess(
                 source, matched_mesh, np.maximum(target_to_source, 0) if points is None else points
             )
     coverage = evaluate.coverage(target_to_source, source)
-    return Accuracy(direct, float(matched.mean()), coverage, *(others or [None]), precise_errors, smoothness)
+    mirrored_errors = others[0] if others else None
+    return Accuracy(direct, float(matched.mean()), coverage, mirrored_errors, precise_errors, smoothness)
 
 
 @dataclass(frozen=True, eq=False)
