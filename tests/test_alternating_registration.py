@@ -30,12 +30,12 @@ from kfmaps.matching.extremity_matching import (
     vertices_of_match,
 )
 from kfmaps.matching.finish import better_match
-from kfmaps.matching.initial_maps import Start, paired_map
+from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.result_groups import MatchRegistration
-from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
+from kfmaps.matching.sample_pair import mirrored_pair, paired_map, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.search_state import SearchState

@@ -26,10 +26,10 @@ from kfmaps.matching.extremity_matching import (
     match_of_map,
     similar_matches,
 )
-from kfmaps.matching.initial_maps import extremity_inits, paired_map
+from kfmaps.matching.initial_maps import extremity_inits
 from kfmaps.matching.quality import mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, by_preference, ranking
-from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.sample_pair import paired_map, two_level_samples
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import find_self_maps
 from kfmaps.registration.alternating_registration import proxy_pair

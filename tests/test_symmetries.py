@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from conftest import NO_LANDMARKS, SMALL
 from kfmaps import Mesh
+from kfmaps.datasets import two_poses
 from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_points
@@ -142,12 +143,101 @@ def test_a_starfish_is_turned_onto_itself():
     of = subsample(sample_for_scoring(prepare(Mesh(vertices, faces), SMALL)), 400)
     found = [C for C in find_self_maps(of, 60) if map_quality(C, of, of).orientation > 0.9]
     assert found
-    around = [Rotation.from_rotvec([0, 0, 2 * np.pi * i / ARMS]).as_matrix() for i in range(1, ARMS)]
+    turned = [Rotation.from_rotvec([0, 0, 2 * np.pi * i / ARMS]).as_matrix() for i in range(ARMS)]
+    around = [*turned[1:], *(R @ np.diag([1, -1, -1]) for R in turned)]  # or turned over
     for C in found:
-        basis = of.samples.basis.functions[:, : len(C)]
-        images = of.positions[KDTree(basis @ C.T).query(basis)[1]]
+        images = of.positions[images_of(C, of)]
         off = [np.linalg.norm(images - of.positions @ R, axis=1).mean() for R in around]
         assert min(off) < 0.06 < 0.3 < max(off)
+
+
+def table_body():
+    """A table on four legs: two mirrorings, and half a turn, which keeps the orientation."""
+    limbs = [Limb("trunk", None, ((0, 0.7, -0.55, 0.1), (0, 0.7, 0, 0.12), (0, 0.7, 0.55, 0.1)))]
+    for x in (-1, 1):
+        limbs.append(Limb(f"side {x}", "trunk", tuple((x * a, 0.7, 0, 0.1) for a in (0.05, 0.2, 0.4))))
+        for z in (-1, 1):
+            balls = ((0.1, 0.68, 0.5, 0.08), (0.35, 0.5, 0.6, 0.06), (0.4, 0, 0.65, 0.055))
+            limbs.append(Limb(f"leg {x} {z}", "trunk", tuple((x * a, b, z * c, r) for a, b, c, r in balls)))
+    return Body(tuple(limbs))
+
+
+def table_mesh():
+    return closed_mesh(table_body(), table_body().box(), 1500, np.random.default_rng(0))
+
+
+def images_of(C, of):
+    """The sample that each sample of a shape is taken to by a self-map."""
+    basis = of.samples.basis.functions[:, : len(C)]
+    return KDTree(basis @ C.T).query(basis)[1]
+
+
+def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
+    of = subsample(sample_for_scoring(prepare(Mesh(*table_mesh()), SMALL)), 400)
+
+    def turns():
+        """Distances of the self-maps that keep the orientation from half a turn."""
+        found = [C for C in find_self_maps(of, 60) if map_quality(C, of, of).orientation > 0.9]
+        images = [of.positions[images_of(C, of)] for C in found]
+        return [np.linalg.norm(at - of.positions * [-1, 1, -1], axis=1).mean() for at in images]
+
+    assert min(turns()) < 0.05
+    monkeypatch.setattr(within, "_keeps_shot", lambda quality: quality.orientation < 0.5)
+    assert not turns()
+
+
+def test_two_copies_of_a_body_change_places():
+    one = two_poses(1500).source
+    both = Mesh(
+        np.vstack([one.vertices, one.vertices + np.array([3.0, 0, 0])]),
+        np.vstack([one.faces, one.faces + len(one.vertices)]),
+    )
+    of = subsample(sample_for_scoring(prepare(both, SMALL)), 400)
+    is_first = of.positions[:, 0] < np.median(of.positions[:, 0])
+    changes = [(is_first != is_first[images_of(C, of)]).mean() for C in find_self_maps(of, 60)]
+    assert max(changes) > 0.9
+
+
+def test_a_self_map_keeps_orientation_and_shot():
+    kept = Quality(0.98, 0.05, 0.15, 0.12, 0.01, 0.9, 0.05)
+    assert within._keeps_shot(kept)
+    assert not within._keeps_shot(replace(kept, orientation=-0.98))
+    assert not within._keeps_shot(replace(kept, descriptors=0.26))
+
+
+def test_a_map_that_only_a_composition_leads_to_is_composed_too(monkeypatch, symmetric):
+    composed = []
+
+    def starts(best, pair, functions):
+        composed.append(best)
+        return symmetry_inits(best, pair, functions)
+
+    def gains(gain):
+        def rough(begun, pair, _functions):
+            far = begun[0].name.startswith("self-map") and len(composed) == 1
+            found = [score_maps([Start(one.name, symmetric.C)], pair)[0] for one in begun[:1]]
+            return [replace(c, quality=replace(c.quality, coverage=c.quality.coverage + gain * far)) for c in found]
+
+        composed.clear()
+        with monkeypatch.context() as patch:
+            patch.setattr(found_by, "symmetry_inits", starts)
+            patch.setattr(found_by, "refine_coarse", rough)
+            patch.setattr(found_by, "refine_fine", lambda few, *_: few)
+            candidates(symmetric.source, symmetric.target, SMALL, symmetric.samples, 0)
+        return [len(best) for best in composed]
+
+    assert gains(0.9) == [1]
+    assert gains(1.1) == [1, 1]
+    assert composed[1][0].name.startswith("self-map")
+
+
+def test_every_alternative_may_be_the_symmetric_one(unmarked):
+    state: Any = unmarked._search
+    best = state.ranked[0]
+    usual = np.exp(-3.6 - 0.233 * best.quality.score)
+    worse, like = (replace(best, deformation_energy=x * usual, strain=9.0) for x in (1.01, 0.99))
+    assert search_result.build_result(state, best, [worse]).verdict == "sure"
+    assert search_result.build_result(state, best, [worse, like]).verdict == "ambiguous"
 
 
 def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):

@@ -98,7 +98,11 @@ def candidates(
         starts += [
             Start(f"perturbed {i}", C, False, COARSE_WEIGHTS[0], START_SIZES[0]) for i, C in enumerate(perturbed)
         ]
-    maps += refine_coarse(starts, coarse, functions)
+    composed = by_score(refine_coarse(starts, coarse, functions))
+    maps += composed
+    min_gain = 1.0  # in score, from which what a composition has led to is composed once more: it is another map
+    if composed and composed[0].score > order[0].score + min_gain:
+        maps += refine_coarse(symmetry_inits(composed[:1], coarse, functions), coarse, functions)
     report(0.75)
     finalists = _N_CLEAR_FINALISTS if is_clear else _N_FINALISTS
     chosen = distinct_maps(by_score(maps), coarse.source, SCORE.rough_distance, finalists)

@@ -68,16 +68,18 @@ def complete_match(match: ExtremityMatch, likely: list[ExtremityMatch]) -> Extre
     return next((one for one in likely if match.is_within(one) and len(one.source) > len(match.source)), match)
 
 
-def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarray | None) -> list[ExtremityMatch]:
+def match_extremities(
+    source: ShapeSamples, target: ShapeSamples, shot: np.ndarray | None, n_compared: int = _N_COMPARED
+) -> list[ExtremityMatch]:
     """Return the likeliest matches, best first; none where a shape has fewer than three extremities.
 
     ``shot (q_t, q_s)``: half the squared differences of descriptors, see
-    :func:`kfmaps.matching.sample_pair.descriptor_cost`.
+    :func:`kfmaps.matching.sample_pair.descriptor_cost`; ``n_compared``: matches whose features are compared.
     """
     a, b = source.extremities, target.extremities
     if min(len(a.points), len(b.points)) < _MIN_EXTREMITIES:
         return []
-    matches = similar_matches(source, target)[:_N_COMPARED]
+    matches = similar_matches(source, target)[:n_compared]
     first = a.subsample(_N_SAMPLES), b.subsample(_N_SAMPLES)
     shot = None if shot is None else shot[:_N_SAMPLES, :_N_SAMPLES]
     costs = [float(extremity_cost(*first, match, shot).min(axis=1).mean()) for match in matches]

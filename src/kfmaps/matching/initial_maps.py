@@ -27,10 +27,10 @@ from kfmaps.matching.assemble import (
     principal_features,
     scale_operators,
 )
-from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
+from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
 from kfmaps.matching.features import Descriptors, Features, SampledPair, kernel_features, pair_descriptors
 from kfmaps.matching.fit import robust_weights
-from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
+from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, paired_map
 from kfmaps.matching.score import Candidate
 from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import Fit, minimize_problem
@@ -118,12 +118,6 @@ def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
     weights = distinct_weights([EXTREMITY_WEIGHTS], pair)[0]
     matches = match_extremities(pair.source, pair.target, pair.descriptor_cost)
     return [Start(f"{match}", paired_map(match, pair, size), True, weights, size, match) for match in matches]
-
-
-def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
-    """Return the functional map (k, k) of the sample pairs with the least cost by a match of extremities."""
-    cost = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.descriptor_cost)
-    return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[cost.argmin(axis=1), :k], float)
 
 
 def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int) -> list[Start]:

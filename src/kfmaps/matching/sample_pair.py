@@ -123,3 +123,9 @@ def descriptor_cost(guidance: DescriptorGuidance) -> np.ndarray:
     """Return half the squared differences ``(q_t, q_s)`` float32 of guidance, up to a constant of each target point."""
     source, target = guidance.source, guidance.target
     return (0.5 * (source**2).sum(axis=1)[None, :] - target @ source.T).astype(np.float32)
+
+
+def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
+    """Return the functional map (k, k) of the sample pairs with the least cost by a match of extremities."""
+    cost = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.descriptor_cost)
+    return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[cost.argmin(axis=1), :k], float)

@@ -65,7 +65,7 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     config, samples = state.config, state.samples.fine
     assert config.search is not None
     doubts = [(c, margin) for c, margin in state.doubts if margin < SCORE.shot_margin]
-    margins = [*(margin for _, margin in doubts), *(_margin(best, other) for other in rest[:1])]
+    margins = [*(margin for _, margin in doubts), *(_margin(best, other) for other in rest)]
     if not samples.are_surfaces and (~state.rejected).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
     alternatives = [*(c for c, _ in doubts), *rest][: config.search.n_alternatives]

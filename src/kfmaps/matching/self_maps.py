@@ -6,7 +6,8 @@ which of two such maps is right. So a search compares its best maps with their c
 not it has found these by itself.
 
 An intrinsic symmetry maps each simple eigenfunction to itself or to its negative (Ovsjanikov, Sun and Guibas 2008). A
-symmetry of order three or more, as that of a starfish, rotates pairs of functions with one eigenvalue.
+symmetry of order three or more, as that of a starfish, rotates pairs of functions with one eigenvalue. Where functions
+with other symmetries happen to have one eigenvalue, as those of a table, it still takes extremities to each other.
 """
 
 from __future__ import annotations
@@ -18,7 +19,10 @@ import numpy as np
 
 from kfmaps._arrays import Array, to_numpy
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
-from kfmaps.matching.quality import ShapeSamples, map_distortion
+from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
+from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality
+from kfmaps.matching.sample_pair import SamplePair, build_sample_pair, paired_map
+from kfmaps.matching.score import Quality, select_distinct
 
 _MAX_DISTORTION = 0.12
 """Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
@@ -54,32 +58,46 @@ def _size(shape: ShapeSamples, functions: int) -> int:
 def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
     """Return functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
-    At most two start from signs and two from rotated pairs, the best of each first. Their images differ. A shape
-    without near-symmetries has none. The parameters are those of :func:`self_maps`.
+    At most two start from signs, two from rotated pairs and two from extremities, the best of each first. Their images
+    differ. A shape without near-symmetries has none. The parameters are those of :func:`self_maps`.
     """
-    stop, basis = _size(shape, functions), shape.samples.basis
+    stop, pair = _size(shape, functions), build_sample_pair(shape, shape)
     count = min(5, stop - 1)
     if count < 1:
         return []
     middle = min(_COARSE_FUNCTIONS, stop)
 
     def coarse(maps: np.ndarray) -> np.ndarray:
-        sizes = (*range(maps.shape[1], middle, 4), middle)
-        return batched_zoomout(maps, basis, basis, sizes)[0]
+        return _refined(maps, pair, middle)[0]
 
     starts = coarse(np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)]))
     likely = np.sort(np.argsort(_changes(starts, shape)[0], kind="stable")[:_MAX_CANDIDATES])
-    kept = _least_distorted(starts[likely], shape, [], stop)
-    pairs = _rotated_pairs(basis.eigenvalues[:middle])
+    kept = _least_distorted(starts[likely], pair, [], stop)
+    rotations = _rotated_pairs(pair.source.samples.basis.eigenvalues[:middle])
     # Mean change of distances, in √area, up to which a coarse self-map that rotates a pair is refined further.
     max_change = 0.03
-    if pairs:
-        starts = np.concatenate([coarse(maps) for maps in pairs])
+    if rotations:
+        starts = np.concatenate([coarse(maps) for maps in rotations])
         changes, displacements = _changes(starts, shape)
         # Most return to the identity, which needs no more refinement.
         likely = np.flatnonzero((changes < max_change) & (displacements > _MIN_DISPLACEMENT))
-        kept += _least_distorted(starts[likely], shape, kept, stop)
+        kept += _least_distorted(starts[likely], pair, kept, stop)
+    kept += _least_distorted(_from_extremities(pair, min(12, stop)), pair, kept, stop, guided=True)
     return [C for C, _ in kept]
+
+
+def _from_extremities(pair: SamplePair, size: int) -> np.ndarray:
+    """Return maps ``(m, size, size)`` of a shape, paired with itself, that take extremities to others like them."""
+    likely = match_extremities(pair.source, pair.source, pair.descriptor_cost, n_compared=50)
+    n_tried = 5  # matches that contradict each other, first of all the identity
+    tried = select_distinct(likely, ExtremityMatch.contradicts, n_tried)
+    return np.array([paired_map(match, pair, size) for match in tried]).reshape(len(tried), size, size)
+
+
+def _refined(maps: np.ndarray, pair: SamplePair, stop: int, weight: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Refine self-maps up to ``stop`` functions in steps of 4, with this weight of SHOT (:func:`batched_zoomout`)."""
+    basis, sizes = pair.source.samples.basis, (*range(maps.shape[1], stop, 4), stop)
+    return batched_zoomout(maps, basis, basis, sizes, pair.matching_cost(weight), pair.solver)
 
 
 def _rotated_pairs(eigenvalues: Array) -> list[np.ndarray]:
@@ -99,29 +117,42 @@ def _rotated_pairs(eigenvalues: Array) -> list[np.ndarray]:
 
 
 def _least_distorted(
-    starts: np.ndarray, shape: ShapeSamples, known: list[tuple[np.ndarray, np.ndarray]], stop: int
+    starts: np.ndarray,
+    pair: SamplePair,
+    known: list[tuple[np.ndarray, np.ndarray]],
+    stop: int,
+    guided: bool = False,
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return the best self-maps with ``stop`` functions, and the images of the samples by each, (q, 3).
 
-    They differ from the identity, from each other and from those ``known``.
+    They differ from the identity, from each other and from those ``known``. With ``guided`` SHOT takes part in the
+    refinement, and only maps are returned that nearly keep it and the orientation: without it every leg of a table may
+    be turned by itself.
     """
     if len(starts) == 0:
         return []
-    basis = shape.samples.basis
-    maps, points = batched_zoomout(starts, basis, basis, (*range(starts.shape[1], stop, 4), stop))
+    shape = pair.source
+    maps, points = _refined(starts, pair, stop, 12.0 if guided else 0.0)
     distortions = [map_distortion(C, shape, shape, at) for C, at in zip(maps, points, strict=True)]
     kept: list[tuple[np.ndarray, np.ndarray]] = []
     min_difference = 0.08  # mean distance, in √area, between the images of two self-maps
-    most = 2  # self-maps of either kind: from signs, and from rotated pairs
+    most = 2  # self-maps of each kind: from signs, from rotated pairs and from extremities
     for i in np.argsort(distortions, kind="stable"):
         if distortions[i] > _MAX_DISTORTION or len(kept) == most:
             break
+        if guided and not _keeps_shot(map_quality(maps[i], shape, shape, points[i])):
+            continue
         images = shape.positions[points[i]]
         others = [shape.positions, *(other for _, other in (*known, *kept))]
         off = [float(np.linalg.norm(images - other, axis=1).mean()) for other in others]
         if off[0] > _MIN_DISPLACEMENT and all(one > min_difference for one in off[1:]):
             kept.append((maps[i], images))
     return kept
+
+
+def _keeps_shot(quality: Quality) -> bool:
+    """Return whether a self-map keeps the orientation and SHOT; one that turns a person around has 0.26 or more."""
+    return quality.orientation > 0.5 and quality.descriptors < 0.25
 
 
 def _changes(maps: np.ndarray, shape: ShapeSamples) -> tuple[np.ndarray, np.ndarray]:
