@@ -186,6 +186,18 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
     assert not turns()
 
 
+def test_a_worm_is_turned_about_its_axis():
+    balls = ((0, 0, -1.2, 0.03), (0, 0, -0.6, 0.08), (0, 0, 0, 0.1), (0, 0, 0.6, 0.09), (0, 0, 1.1, 0.1))
+    worm = Body((Limb("trunk", None, balls),))
+    vertices, faces = closed_mesh(worm, worm.box(), 1500, np.random.default_rng(0))
+    of = subsample(sample_for_scoring(prepare(Mesh(vertices, faces), SMALL)), 400)
+    found = [C for C in find_self_maps(of, 60) if map_quality(C, of, of).orientation > 0.9]
+    assert found
+    for C in found:
+        off = of.positions[images_of(C, of)] - of.positions
+        assert np.linalg.norm(off[:, :2], axis=1).mean() > 0.1 > 0.05 > np.abs(off[:, 2]).mean()
+
+
 def test_two_copies_of_a_body_change_places():
     one = two_poses(1500).source
     both = Mesh(

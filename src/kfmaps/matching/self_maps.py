@@ -108,8 +108,9 @@ def _rotated_pairs(eigenvalues: Array) -> list[np.ndarray]:
     rotations = np.stack([[np.cos(angles), -np.sin(angles)], [np.sin(angles), np.cos(angles)]]).transpose(2, 0, 1)
     pairs = []
     max_ratio = 1.15  # of two eigenvalues that may be one: arms in other poses make 1.03 of it. People have 1.28.
-    for i in range(1, min(4, len(values) - 1)):
-        if values[i + 1] < max_ratio * values[i]:
+    max_high_ratio = 1.02  # the same of higher ones, which lie closer together: those of a tube turned about its axis
+    for i in range(1, len(values) - 1):
+        if values[i + 1] < (max_ratio if i < 4 else max_high_ratio) * values[i]:
             maps = np.tile(np.eye(i + 2), (len(rotations), 1, 1))
             maps[:, i:, i:] = rotations
             pairs.append(maps)
