@@ -51,7 +51,6 @@ PIECES: dict[str, list[Patch]] = {
     "no kernel fits": [(candidates, "kernel_inits", lambda *_, **__: [])],
     "no starts from extremities": [(candidates, "extremity_inits", lambda *_, **__: [])],
     "no near-symmetries": [(candidates, "symmetry_inits", lambda *_, **__: [])],
-    "no perturbations": [(candidates, "N_PERTURBATIONS", 0)],
     "no fine refinement with extremities": [(candidates, "FINE_WEIGHTS", candidates.FINE_WEIGHTS[:1])],
     "no closer look at the first two": [(one, "rerank_close", _first) for one in (ranking, limb_exchange)],
     "no near duplicates": [(search, "rerank_near_duplicates", _first)],

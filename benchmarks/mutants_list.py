@@ -268,7 +268,9 @@ MUTANTS = tuple(
             "functions[:, :k_s] @ np.asarray(C,",
             f"{MATCH} -k points_are",
         ),
-        ("rotation = expm((generator - generator.T) / 2)", "rotation = expm(generator / 2)", "test_automatic -k kicks"),
+        ("max_ratio if i < 4 else max_high_ratio", "max_ratio if i < 4 else 1.0", "test_symmetries -k worm"),
+        ("12.0 if guided else 0.0", "0.0", "test_symmetries -k table"),
+        ("for other in rest)]", "for other in rest[:1])]", "test_symmetries -k every_alternative"),
         ("best.score > order[0].score - SCORE.clear_margin", "best.score > order[0].score", "test_automatic -k rival"),
         (
             "mesh.vertices * MIRROR, mesh.faces[:, ::-1]",

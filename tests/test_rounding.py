@@ -28,7 +28,7 @@ from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
 from kfmaps.matching.assemble import orientation_pair, principal_features
 from kfmaps.matching.candidates import score_maps
 from kfmaps.matching.features import Features
-from kfmaps.matching.initial_maps import Start, perturb
+from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.quality import map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct_candidates
 from kfmaps.matching.sample_pair import build_sample_pair
@@ -126,14 +126,6 @@ def test_a_score_is_finite_where_every_sample_is_a_component_of_its_own():
     for samples in (spectral_samples(shape.basis, 30), stratified_samples(shape.basis, 30)):
         assert len(samples.vertices) > 20
         assert samples.basis.mass.sum() == pytest.approx(shape.basis.mass.sum())
-    assert np.isfinite(perturb(np.eye(20), shape.basis.eigenvalues, rng)).all()
-
-
-@pytest.mark.parametrize("first", FIRST)
-def test_kicks_are_the_same_whatever_zero_is(shape, first):
-    values = starting(shape, first).basis.eigenvalues
-    usual = perturb(np.eye(K), shape.basis.eigenvalues, np.random.default_rng(3))
-    np.testing.assert_allclose(perturb(np.eye(K), values, np.random.default_rng(3)), usual, atol=1e-5)
 
 
 @pytest.mark.parametrize("name", poor_maps())

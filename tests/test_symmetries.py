@@ -361,18 +361,18 @@ def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, symmetr
     assert tried == {"signs", "self-map", 0.0, 12.0}
     assert finalists <= found_by._N_CLEAR_FINALISTS
     tried, finalists = names(monkeypatch, symmetric, np.inf)
-    assert {"signs", "self-map", "perturbed", 0.0, 4.0, 12.0} < tried
+    assert {"signs", "self-map", "SHOT", 0.0, 4.0, 12.0} < tried
     assert finalists > found_by._N_CLEAR_FINALISTS
 
 
 def test_what_the_user_says_is_heard(monkeypatch, symmetric):
     shapes = symmetric.source, symmetric.target
     given = [np.random.default_rng(i).normal(size=(len(shape.mesh.vertices), 2)) for i, shape in enumerate(shapes)]
-    assert "perturbed" in names(monkeypatch, symmetric, -np.inf, descriptors=tuple(given))[0]
+    assert "SHOT" in names(monkeypatch, symmetric, -np.inf, descriptors=tuple(given))[0]
     marks = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
     both = [sample_for_scoring(shape, landmarks=at) for shape, at in zip(shapes, marks.T, strict=True)]
     led = two_level_samples(*shapes, (both[0], both[1]), marks)
-    assert "perturbed" in names(monkeypatch, symmetric, -np.inf, led, marks)[0]
+    assert "SHOT" in names(monkeypatch, symmetric, -np.inf, led, marks)[0]
 
 
 def test_rivals_make_nothing_clear():

@@ -2,8 +2,7 @@
 
 1. Initial maps with all signs of the low functions are refined by ZoomOut on the coarse samples, with few functions.
 2. Unless one of them is clearly right, kernel fits and extremity matches are refined likewise.
-3. The best are composed with the self-maps of both shapes and, unless step 2 was left out, perturbed; all these are
-   refined likewise.
+3. The best are composed with the self-maps of both shapes and refined likewise.
 4. The best distinct maps are refined on the fine samples, with more functions, with descriptors and without them.
 
 Every refined map is scored by :func:`kfmaps.matching.quality.map_quality`.
@@ -27,14 +26,12 @@ from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.initial_maps import (
     COARSE_WEIGHTS,
     FIT_SAMPLES,
-    START_SIZES,
     STRONG,
     CostWeights,
     Start,
     distinct_weights,
     extremity_inits,
     kernel_inits,
-    perturb,
     sign_inits,
     symmetry_inits,
 )
@@ -49,8 +46,6 @@ FINE_FUNCTIONS = 80
 FINE_WEIGHTS: tuple[CostWeights, ...] = (STRONG, (*STRONG, 30.0))
 """Weights of the fine refinement, without extremities and with them: distances from extremities mislead where a hand
 touches a thigh."""
-N_PERTURBATIONS = 6
-"""Initial maps that are random perturbations of the best coarse map."""
 _N_EARLY_WEIGHTS = 2  # weights of sign maps that are refined before a clear map ends the search for initial maps
 _N_FINALISTS, _N_CLEAR_FINALISTS = 10, 6
 """Distinct coarse maps that are refined on the fine samples, and with a clear map among them."""
@@ -91,14 +86,7 @@ def candidates(
     order = by_score(maps)
     n_composed = 3  # best distinct coarse maps that are composed with self-maps
     best = distinct_maps(order, coarse.source, SCORE.distinct_distance, n_composed)
-    starts = symmetry_inits(best, coarse, functions)
-    if not is_clear:
-        C, values = order[0].functional_map, source.basis.eigenvalues
-        perturbed = [perturb(C, values, np.random.default_rng(seed + i)) for i in range(N_PERTURBATIONS)]
-        starts += [
-            Start(f"perturbed {i}", C, False, COARSE_WEIGHTS[0], START_SIZES[0]) for i, C in enumerate(perturbed)
-        ]
-    composed = by_score(refine_coarse(starts, coarse, functions))
+    composed = by_score(refine_coarse(symmetry_inits(best, coarse, functions), coarse, functions))
     maps += composed
     min_gain = 1.0  # in score, from which what a composition has led to is composed once more: it is another map
     if composed and composed[0].score > order[0].score + min_gain:

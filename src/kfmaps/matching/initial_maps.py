@@ -1,4 +1,4 @@
-"""Initial maps of a search: sign choices, extremity matches, small kernel fits, near-symmetries and perturbations.
+"""Initial maps of a search: sign choices, extremity matches, small kernel fits, near-symmetries.
 
 Diagonal functional maps with every choice of signs of the low functions contain all symmetries of near-isometric bodies
 (MapTree, Ren et al. 2020). Kernel fits of samples start where the functions of two shapes differ by more than signs.
@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-from scipy.linalg import expm
 
 from kfmaps._arrays import inner, refuse
 from kfmaps._threads import parallel
@@ -136,26 +135,6 @@ def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int) -> l
             k = min(len(C), len(S))
             composed.append((f"self-map {i}", S[:k, :k] @ C[:k, :k], None))
     return repeated_starts(composed, pair)
-
-
-def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Return ``C`` after a random rotation of the source's low functions that mixes mostly those of like frequency.
-
-    Of a shape with a continuous symmetry, whose eigenvalues come in pairs, that is about a random symmetry; of any
-    other it is a bad start, from which the refinement returns to the same map or strays to a worse one.
-    """
-    k = min(20, *C.shape)
-    values = np.sqrt(np.maximum(eigenvalues[:k], 0.0))
-    # Constants of many components have eigenvalues of rounding size: all are alike. Below 0.03, the root of an
-    # eigenvalue at unit area, there is no wave: a sphere's first is 5.
-    width = 0.02 * max(float(values[-1]), 0.03)
-    alike = np.exp(-(((values[:, None] - values[None, :]) / width) ** 2))
-    generator = rng.normal(size=(k, k)) * alike * np.pi
-    rotation = expm((generator - generator.T) / 2)
-    # A simple eigenvalue leaves no rotation, only the choice of sign, which may flip too.
-    signs = np.where(rng.random(k) < 0.25, -1.0, 1.0)
-    signs[0] = 1.0
-    return C[:k, :k] @ (rotation * signs[None, :])
 
 
 def kernel_inits(points: SampledPair, config: Config, samples: TwoLevelSamples, seed: int) -> list[Start]:

@@ -191,8 +191,8 @@ class Scoring:
     twin_distance: float = 0.03
     """Distance up to which two repaired candidates are the same: a limb that lies elsewhere makes 0.05."""
     early_exit_score: float = -7.0
-    """:attr:`Quality.score` of a coarse map from which kernel fits and perturbations are left out: people have −4 to
-    −10, animals of different kinds −8.5 and less."""
+    """:attr:`Quality.score` of a coarse map from which kernel fits are left out: people have −4 to −10, animals
+    of different kinds −8.5 and less."""
     repair_score: float = -7.5
     """:attr:`Quality.score` below which candidates are repaired by registration."""
     non_isometric_score: float = -8.0
