@@ -128,12 +128,8 @@ def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int) -> l
     composed = []
     for i, candidate in enumerate(best):
         C = candidate.functional_map
-        for S in self_maps_s:
-            k = min(len(C), len(S))
-            composed.append((f"self-map {i}", C[:k, :k] @ S[:k, :k], None))
-        for S in self_maps_t:
-            k = min(len(C), len(S))
-            composed.append((f"self-map {i}", S[:k, :k] @ C[:k, :k], None))
+        factors = [*((C, S) for S in self_maps_s), *((S, C) for S in self_maps_t)]
+        composed += [(f"self-map {i}", A[: len(B), : len(B)] @ B[: len(A), : len(A)], None) for A, B in factors]
     return repeated_starts(composed, pair)
 
 

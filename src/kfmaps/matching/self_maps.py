@@ -66,18 +66,14 @@ def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
     if count < 1:
         return []
     middle = min(_COARSE_FUNCTIONS, stop)
-
-    def coarse(maps: np.ndarray) -> np.ndarray:
-        return _refined(maps, pair, middle)[0]
-
-    starts = coarse(np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)]))
+    signs = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
+    starts = _refined(signs, pair, middle)[0]
     likely = np.sort(np.argsort(_changes(starts, shape)[0], kind="stable")[:_MAX_CANDIDATES])
     kept = _least_distorted(starts[likely], pair, [], stop)
     rotations = _rotated_pairs(pair.source.samples.basis.eigenvalues[:middle])
-    # Mean change of distances, in √area, up to which a coarse self-map that rotates a pair is refined further.
-    max_change = 0.03
+    max_change = 0.03  # mean change of distances, in √area, up to which a coarse map that rotates a pair goes on
     if rotations:
-        starts = np.concatenate([coarse(maps) for maps in rotations])
+        starts = np.concatenate([_refined(maps, pair, middle)[0] for maps in rotations])
         changes, displacements = _changes(starts, shape)
         # Most return to the identity, which needs no more refinement.
         likely = np.flatnonzero((changes < max_change) & (displacements > _MIN_DISPLACEMENT))
