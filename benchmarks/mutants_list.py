@@ -366,7 +366,7 @@ MUTANTS = tuple(
         ("margin < SCORE.clear_margin and", "margin < 9.0 and", "test_symmetries -k quality_alone"),
         ("if distortions[i] > _MAX_DISTORTION or", "if", "test_extremities -k symmetry"),
         ("if off[0] > _MIN_DISPLACEMENT and all(", "if all(", "test_symmetries -k mirror"),
-        ("*((S, C) for S in self_maps_t)", "*((C, C) for S in self_maps_t)", "test_symmetries -k mistaken"),
+        ("*((S, C) for S in self_maps_t)", "*((C, C) for S in self_maps_t)", "test_symmetries -k composed_before"),
         (
             "sums[free] = np.hstack([mesh.vertices[free] + shifts,",
             "sums[free] = np.hstack([shifts,",

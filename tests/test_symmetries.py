@@ -102,6 +102,15 @@ def test_a_map_is_compared_with_what_it_is_mistaken_for(symmetric, on, of_target
     assert len(distinct_maps([right, found[0]], on.source, 0.08)) == 1
 
 
+def test_a_map_is_composed_before_and_after(symmetric, on):
+    whole = score_maps([Start("truth", symmetric.C)], on)[0]
+    made = [start.functional_map for start in symmetry_inits([whole], on, 60)]
+    S, T = find_self_maps(on.source, 60)[0], find_self_maps(on.target, 60)[0]
+    k = min(len(S), len(symmetric.C))
+    for expected in (symmetric.C[:k, :k] @ S[:k, :k], T[:k, :k] @ symmetric.C[:k, :k]):
+        assert any(np.array_equal(one, expected) for one in made)
+
+
 def test_a_symmetric_body_is_not_taken_for_a_mirror_image(symmetric, unmarked, monkeypatch):
     source, truth = symmetric.source, symmetric.truth
     state: Any = unmarked._search
