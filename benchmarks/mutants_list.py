@@ -269,7 +269,7 @@ MUTANTS = tuple(
             f"{MATCH} -k points_are",
         ),
         ("max_ratio if i < 4 else max_high_ratio", "max_ratio if i < 4 else 1.0", "test_symmetries -k worm"),
-        ("12.0 if guided else 0.0", "0.0", "test_symmetries -k table"),
+        ("pair.matching_cost(STRONG[0]) if guided else None", "None", "test_symmetries -k table"),
         ("for other in rest)]", "for other in rest[:1])]", "test_symmetries -k every_alternative"),
         ("best.score > order[0].score - SCORE.clear_margin", "best.score > order[0].score", "test_automatic -k rival"),
         (

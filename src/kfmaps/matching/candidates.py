@@ -26,8 +26,6 @@ from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.initial_maps import (
     COARSE_WEIGHTS,
     FIT_SAMPLES,
-    STRONG,
-    CostWeights,
     Start,
     distinct_weights,
     extremity_inits,
@@ -37,7 +35,7 @@ from kfmaps.matching.initial_maps import (
 )
 from kfmaps.matching.landmark_evidence import landmark_errors
 from kfmaps.matching.quality import ShapeSamples, map_quality
-from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
+from kfmaps.matching.sample_pair import STRONG, CostWeights, SamplePair, TwoLevelSamples
 from kfmaps.matching.score import SCORE, Candidate, by_score, select_distinct
 from kfmaps.shape import Shape
 

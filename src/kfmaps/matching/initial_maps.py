@@ -29,20 +29,22 @@ from kfmaps.matching.assemble import (
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
 from kfmaps.matching.features import Descriptors, Features, SampledPair, kernel_features, pair_descriptors
 from kfmaps.matching.fit import robust_weights
-from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, paired_map
+from kfmaps.matching.sample_pair import (
+    EXTREMITY_FUNCTIONS,
+    STRONG,
+    CostWeights,
+    SamplePair,
+    TwoLevelSamples,
+    paired_map,
+)
 from kfmaps.matching.score import Candidate
 from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import Fit, minimize_problem
 
-CostWeights = tuple[float, ...]
-"""Weights of the costs of SHOT, of landmarks and, where given, of extremities."""
 WEAK: CostWeights = (4.0, 12.0)
-STRONG: CostWeights = (12.0, 12.0)
 COARSE_WEIGHTS: tuple[CostWeights, ...] = ((0.0, 0.0), STRONG, WEAK)
 """Of sign maps in the coarse refinement; without any cost symmetric maps are found too."""
 EXTREMITY_WEIGHTS: CostWeights = (4.0, 12.0, 30.0)
-EXTREMITY_FUNCTIONS = 12
-"""Functions of the initial map of an extremity match."""
 START_SIZES = (6, 10, 20)
 """Functions that the coarse refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""

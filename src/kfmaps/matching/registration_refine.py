@@ -30,7 +30,7 @@ from kfmaps.matching.extremity_matching import (
     unused_matches,
     vertices_of_match,
 )
-from kfmaps.matching.initial_maps import EXTREMITY_FUNCTIONS, Start
+from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.ranking import (
@@ -41,7 +41,7 @@ from kfmaps.matching.ranking import (
     reference_values,
     score_registered,
 )
-from kfmaps.matching.sample_pair import SamplePair, paired_map
+from kfmaps.matching.sample_pair import EXTREMITY_FUNCTIONS, SamplePair, paired_map
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.registration.alternating_registration import AlternatingResult, ProxyPair, alternating_registration
 from kfmaps.registration.evidence import registered_shot_error

@@ -14,6 +14,11 @@ from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, h
 from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
 from kfmaps.shape import Shape
 
+CostWeights = tuple[float, ...]
+"""Weights of the costs of SHOT, of landmarks and, where given, of extremities."""
+STRONG: CostWeights = (12.0, 12.0)
+EXTREMITY_FUNCTIONS = 12
+"""Functions of the initial map of an extremity match."""
 COARSE_SAMPLES = 400
 """Samples of the coarse refinement: the first of those of the fine one."""
 

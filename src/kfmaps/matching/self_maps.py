@@ -21,7 +21,7 @@ from kfmaps._arrays import Array, to_numpy
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
 from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality
-from kfmaps.matching.sample_pair import SamplePair, build_sample_pair, paired_map
+from kfmaps.matching.sample_pair import EXTREMITY_FUNCTIONS, STRONG, SamplePair, build_sample_pair, paired_map
 from kfmaps.matching.score import Quality, select_distinct
 
 _MAX_DISTORTION = 0.12
@@ -78,7 +78,7 @@ def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
         # Most return to the identity, which needs no more refinement.
         likely = np.flatnonzero((changes < max_change) & (displacements > _MIN_DISPLACEMENT))
         kept += _least_distorted(starts[likely], pair, kept, stop)
-    kept += _least_distorted(_from_extremities(pair, min(12, stop)), pair, kept, stop, guided=True)
+    kept += _least_distorted(_from_extremities(pair, min(EXTREMITY_FUNCTIONS, stop)), pair, kept, stop, guided=True)
     return [C for C, _ in kept]
 
 
@@ -90,10 +90,11 @@ def _from_extremities(pair: SamplePair, size: int) -> np.ndarray:
     return np.array([paired_map(match, pair, size) for match in tried]).reshape(len(tried), size, size)
 
 
-def _refined(maps: np.ndarray, pair: SamplePair, stop: int, weight: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Refine self-maps up to ``stop`` functions in steps of 4, with this weight of SHOT (:func:`batched_zoomout`)."""
+def _refined(maps: np.ndarray, pair: SamplePair, stop: int, guided: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """Refine self-maps up to ``stop`` functions in steps of 4, ``guided`` by SHOT (:func:`batched_zoomout`)."""
     basis, sizes = pair.source.samples.basis, (*range(maps.shape[1], stop, 4), stop)
-    return batched_zoomout(maps, basis, basis, sizes, pair.matching_cost(weight), pair.solver)
+    cost = pair.matching_cost(STRONG[0]) if guided else None
+    return batched_zoomout(maps, basis, basis, sizes, cost, pair.solver)
 
 
 def _rotated_pairs(eigenvalues: Array) -> list[np.ndarray]:
@@ -129,7 +130,7 @@ def _least_distorted(
     if len(starts) == 0:
         return []
     shape = pair.source
-    maps, points = _refined(starts, pair, stop, 12.0 if guided else 0.0)
+    maps, points = _refined(starts, pair, stop, guided)
     distortions = [map_distortion(C, shape, shape, at) for C, at in zip(maps, points, strict=True)]
     kept: list[tuple[np.ndarray, np.ndarray]] = []
     min_difference = 0.08  # mean distance, in √area, between the images of two self-maps
