@@ -3,11 +3,10 @@
     python benchmarks/calibration.py ROWS.json [MORE.json ...]
 
 ROWS.json is what ``benchmarks/automatic.py --json`` writes. The score, the margin and the excess of the bending of each
-map, as in :mod:`kfmaps.matching.calibration`, are fitted to whether it is right by logistic regression, once for
-each kind on
-all others, and applied to that kind. Few maps are near the border, so that the coefficients are uncertain: beside the
-most likely ones stands what 95 % of all likely ones agree to (Laplace's approximation; MacKay 1992, "The Evidence
-Framework Applied to Classification Networks"). The confidence that the library gives stands beside both.
+map, as in :func:`kfmaps.matching.score.probability`, are fitted to whether it is right by logistic regression, once for
+each kind on all others, and applied to that kind. Few maps are near the border, so that the coefficients are uncertain:
+beside the most likely ones stands what 95 % of all likely ones agree to (Laplace's approximation; MacKay 1992, "The
+Evidence Framework Applied to Classification Networks"). The confidence that the library gives stands beside both.
 """
 
 from __future__ import annotations
