@@ -18,11 +18,11 @@ from kfmaps.matching import candidates as found_by
 from kfmaps.matching import orientation, search, search_result
 from kfmaps.matching import self_maps as within
 from kfmaps.matching.candidates import candidates, distinct_maps, has_clear_map, refine_coarse, score_maps
-from kfmaps.matching.extremity_matching import extremity_difference, match_of_map
+from kfmaps.matching.extremity_matching import asymmetry, extremity_difference, match_of_map
 from kfmaps.matching.finish import _doubt_exchanged
 from kfmaps.matching.initial_maps import Start, symmetry_inits
 from kfmaps.matching.limb_exchange import _MAX_DIFFERENCE, compare_exchanged, exchange_limbs, exchanged_matches
-from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
+from kfmaps.matching.quality import _reflection_error, map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
@@ -59,6 +59,55 @@ def test_a_body_is_nearly_its_own_mirror_image(on):
     assert moved(found[0], on.source) > 0.15 > _MIN_DISPLACEMENT
     # Done twice it is the identity.
     assert moved((found[0] @ found[0])[:15, :15], on.source) < 0.08
+
+
+@pytest.fixture(scope="module")
+def reflected(symmetric):
+    return scoring_samples(symmetric.source)
+
+
+def test_the_reflection_takes_a_point_to_its_mirror_image_and_back(reflected):
+    there = reflected.reflection
+    displacement = np.linalg.norm(reflected.positions[there] - reflected.positions, axis=1)
+    back = np.linalg.norm(reflected.positions[there[there]] - reflected.positions, axis=1)
+    assert displacement.mean() > 0.15
+    assert back.mean() < 0.03
+    partner = reflected.reflected_extremities
+    assert np.array_equal(partner[partner], np.arange(len(partner)))
+    assert 2 <= (partner != np.arange(len(partner))).sum() < len(partner)
+    assert mirror_samples(reflected).reflection == pytest.approx(there)
+    assert replace(reflected, self_maps=None).reflection is None
+    # Two of them, and none may be chosen.
+    other = np.diag([1.0, -1.0, *[1.0] * (len(reflected.self_maps[0]) - 2)])
+    doubled = replace(reflected, self_maps=np.stack([reflected.self_maps[0], reflected.self_maps[0] @ other @ other]))
+    assert doubled.reflection is None
+
+
+def test_a_map_that_does_not_commute_with_the_reflections_is_found(reflected):
+    same = np.arange(len(reflected.positions))
+    assert _reflection_error(reflected, reflected, same) == 0.0
+    assert _reflection_error(reflected, reflected, reflected.reflection) < 0.02
+    partner, extremities = reflected.reflected_extremities, reflected.extremities
+    one = int(np.flatnonzero(partner != np.arange(len(partner)))[0])
+    near = extremities.unit * extremities.distances[one] < 0.3
+    wrong = np.where(near, extremities.points[partner[one]], same)
+    share = reflected.areas[near].sum()
+    assert share < _reflection_error(reflected, reflected, wrong) < 2.2 * share
+    assert map_quality(np.eye(30), reflected, reflected, wrong).reflection_error > 0.4 * share
+    unknown = replace(reflected, self_maps=None)
+    assert _reflection_error(unknown, reflected, wrong) == _reflection_error(reflected, unknown, wrong) == 0.0
+
+
+def test_extremities_are_matched_as_the_reflections_say():
+    """0 and 1 are a pair of legs on both shapes, 2 is a tail."""
+    partner = np.array([1, 0, 2])
+    targets = np.array([[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0]])
+    assert asymmetry(np.array([0, 1, 2]), targets, partner, partner).tolist() == [0.0, 0.0, 1.0, 1.0]
+    assert asymmetry(np.array([0, 2]), np.array([[1, 2], [2, 1]]), partner, partner).tolist() == [0.0, 1.0]
+    assert asymmetry(np.array([0, 1, 2]), targets, partner, None).tolist() == [0.0] * 4
+    four = np.array([1, 0, 3, 2])  # two pairs: partners must stay partners
+    mixed = np.array([[0, 1, 2, 3], [0, 2, 1, 3]])
+    assert asymmetry(np.arange(4), mixed, four, four).tolist() == [0.0, 1.0]
 
 
 def test_those_that_change_distances_early_are_none(monkeypatch, on):

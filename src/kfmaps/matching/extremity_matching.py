@@ -82,7 +82,12 @@ def match_extremities(
     matches = similar_matches(source, target)[:n_compared]
     first = a.subsample(_N_SAMPLES), b.subsample(_N_SAMPLES)
     shot = None if shot is None else shot[:_N_SAMPLES, :_N_SAMPLES]
-    costs = [float(extremity_cost(*first, match, shot).min(axis=1).mean()) for match in matches]
+    reflected = source.reflected_extremities, target.reflected_extremities
+    costs = [
+        float(extremity_cost(*first, match, shot).min(axis=1).mean())
+        * (1.0 + float(asymmetry(match.source, match.target[None], *reflected)[0]))
+        for match in matches
+    ]
     n_likely = 32  # matches that are returned
     return [matches[i] for i in np.argsort(costs, kind="stable")[:n_likely]]
 
@@ -97,6 +102,7 @@ def similar_matches(source: ShapeSamples, target: ShapeSamples) -> list[Extremit
     between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
     difference = extremity_difference(source, target)
     both = min(len(a.points), len(b.points))
+    reflected = source.reflected_extremities, target.reflected_extremities
     costs, matches = [], []
     min_complete = 5  # number of extremities from which one may be left out
     unmatched_cost = 0.15  # of all extremities; that of one is its share. An ear of a dog has no partner on a cat.
@@ -107,10 +113,29 @@ def similar_matches(source: ShapeSamples, target: ShapeSamples) -> list[Extremit
             distances_t = between_t[images[:, :, None], images[:, None, :]]
             cost = np.abs(distances_t - distances_s).sum(axis=(1, 2)) / (size * (size - 1))
             cost = cost + difference[np.array(chosen), images].mean(axis=1) + unmatched_cost * (both - size) / both
+            cost = cost * (1.0 + asymmetry(np.array(chosen), images, *reflected))
             best = np.argsort(cost, kind="stable")[:_N_COMPARED]
             costs.append(cost[best])
             matches += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
     return [matches[i] for i in np.argsort(np.concatenate(costs), kind="stable")]
+
+
+def asymmetry(
+    source: np.ndarray, targets: np.ndarray, reflected_s: np.ndarray | None, reflected_t: np.ndarray | None
+) -> np.ndarray:
+    """Return the share (p,) of pairs that do not fit the reflections of both shapes; 0 where a shape has none.
+
+    Extremities ``source (m,)`` go to each of ``targets (p, m)``. A tail, which its shape's reflection takes to itself,
+    does not fit a leg, and the two partners of a leg must be each other's images.
+    """
+    if reflected_s is None or reflected_t is None:
+        return np.zeros(len(targets))
+    partner_s, partner_t = reflected_s[source], reflected_t[targets]
+    differs = (partner_s == source) != (partner_t == targets)
+    for i, partner in enumerate(partner_s):
+        for j in np.flatnonzero(source == partner):
+            differs[:, i] |= targets[:, j] != partner_t[:, i]
+    return differs.mean(axis=1)
 
 
 def extremity_difference(source: ShapeSamples, target: ShapeSamples) -> np.ndarray:

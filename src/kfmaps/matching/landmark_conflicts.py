@@ -48,7 +48,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     """
     best, samples = state.ranked[0], state.samples.fine
     errors = ignore_landmarks(best, samples).landmark_errors
-    limit = max_landmark_error(best.quality.score)
+    limit = max_landmark_error(best.quality.calibrated_score)
     rejected = rejected_landmarks(errors, limit)
     least = without_landmark_errors(best.unregistered).score - SCORE.repairable_margin
     near = [c for c in state.candidates if without_landmark_errors(c.unregistered).score > least]
@@ -57,9 +57,9 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
         return rejected, ()
     order = rank_by_surface(state)
     free, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
-    if verdict(free.quality.score, margin, free.deformation_energy) != "sure":
+    if verdict(free.quality.calibrated_score, margin, free.deformation_energy) != "sure":
         return rejected, ()
-    contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.score)
+    contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
     if 2 * contradicted.sum() > len(contradicted):
         # Where left and right were exchanged, landmarks near the middle would mislead too.
         contradicted = np.ones(len(contradicted), dtype=bool)
@@ -103,4 +103,4 @@ def still_contradicted(best: Candidate, samples: SamplePair, evidence: LandmarkE
     if evidence is None:
         return np.zeros(0, dtype=bool)
     errors = landmark_errors(best.functional_map, samples.source.samples.basis.functions, evidence)
-    return errors > max_landmark_error(best.quality.score)
+    return errors > max_landmark_error(best.quality.calibrated_score)

@@ -98,6 +98,34 @@ class ShapeSamples:
         return ShortDistances.of(self.distances)
 
     @cached_property
+    def reflection(self) -> np.ndarray | None:
+        """The sample (q,) to which the reflection of the shape takes each sample; ``None`` without a single one.
+
+        Most bodies are nearly their own mirror images. A shape with several reflections, or with rotations that do not
+        commute with its reflection, as a starfish, has none here: those of two shapes would not correspond.
+        """
+        symmetries = []
+        for C in () if self.self_maps is None else self.self_maps:
+            orientation = _orientation(C, self, self)
+            if abs(orientation) > SCORE.min_symmetry_orientation:
+                functions = self.functions[:, : len(C)]
+                symmetries.append((orientation, nearest(functions, functions @ C.T.astype(np.float32))))
+        reflections = [points for orientation, points in symmetries if orientation < 0.0]
+        if len(reflections) != 1:
+            return None
+        others = [points for orientation, points in symmetries if orientation > 0.0]
+        if any(_unequal_area(reflections[0][p], p[reflections[0]], self, self.areas) > 0.1 for p in others):
+            return None
+        return reflections[0]
+
+    @cached_property
+    def reflected_extremities(self) -> np.ndarray | None:
+        """The number (m,) of the extremity nearest to the reflected one of each; ``None`` without a reflection."""
+        if self.reflection is None:
+            return None
+        return self.extremities.distances[:, self.reflection[self.extremities.points]].argmin(axis=0)
+
+    @cached_property
     def orientation_norm(self) -> float:
         """Norm of the orientation operators; 0 where there are none."""
         return 0.0 if self.orientation is None else float(np.linalg.norm(self.orientation))
@@ -248,7 +276,31 @@ def map_quality(C: Array, source: ShapeSamples, target: ShapeSamples, points: np
         coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
         extremity_descriptor_error=_mean_of_directions(shot, [one.extremity_areas for one, *_ in directions]),
+        reflection_error=float(np.mean([_reflection_error(*direction) for direction in directions])),
     )
+
+
+def _reflection_error(one: ShapeSamples, other: ShapeSamples, points: np.ndarray) -> float:
+    """Return the share of the area of ``one`` where ``points`` on the other and the shapes' reflections do not commute.
+
+    0 where a shape has no reflection.
+    """
+    if one.reflection is None or other.reflection is None:
+        return 0.0
+    return _unequal_area(other.reflection[points], points[one.reflection], other, one.areas)
+
+
+def _unequal_area(first: np.ndarray, second: np.ndarray, shape: ShapeSamples, areas: np.ndarray) -> float:
+    """Return the share of ``areas (q,)`` at which two rows of samples of a shape, (q,) each, lie far apart.
+
+    The difference of their distances from each extremity is a lower bound of the distance along the surface.
+    """
+    far = np.linalg.norm(shape.positions[first] - shape.positions[second], axis=1)
+    extremities = shape.extremities
+    if len(extremities.distances):
+        along = np.abs(extremities.distances[:, first] - extremities.distances[:, second]).max(axis=0)
+        far = np.maximum(far, extremities.unit * along)
+    return float(areas[far > SCORE.reflection_distance].sum())
 
 
 def map_distortion(C: Array, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None = None) -> float:

@@ -137,6 +137,7 @@ class Scoring:
     w_heat: float = 2.0
     w_coverage: float = 1.0
     w_laplacian: float = 2.0
+    w_reflection: float = 25.0
     w_extremities: float = 8.0
     """Weight of the descriptor error at hands, feet, faces and tails, which no pose changes."""
     w_deformation: float = 5.0
@@ -176,6 +177,11 @@ class Scoring:
     """Distance up to which points are neighbours, whose distance a good map preserves."""
     extremity_radius: float = 0.3
     """Distance from an extremity within which descriptors count once more."""
+    min_symmetry_orientation: float = 0.85
+    """Absolute :attr:`Quality.orientation` from which a self-map is taken for a reflection or a rotation: the
+    reflections of cats and dogs have −0.89 to −1."""
+    reflection_distance: float = 0.3
+    """Distance from which a point's image and that of its mirror image are not symmetric."""
     min_heat_variance: float = 0.02
     """Variance of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
 
@@ -268,11 +274,19 @@ class Quality:
     laplacian: float  # ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as for unrelated shapes, for a map of constants alone
     # ``descriptors`` of points near extremities alone, which does not count in :attr:`score`. 0 without extremities.
     extremity_descriptor_error: float = 0.0
+    # Share of the area where the map does not commute with the reflections of both shapes (Ovsjanikov, Sun and Guibas
+    # 2008), mean of both directions. 0 where a shape is not nearly its own mirror image.
+    reflection_error: float = 0.0
 
     @property
     def score(self) -> float:
         """The score of the map alone, higher is better; differences below 0.1 mean little."""
         return quality_score(self)
+
+    @property
+    def calibrated_score(self) -> float:
+        """The score without the reflection error, which depends on how exactly the reflections are known."""
+        return quality_score(replace(self, reflection_error=0.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -306,7 +320,7 @@ class Candidate:
     def excess_deformation(self) -> float:
         """:func:`excess_deformation` of the map; 0 where its deformation energy was not computed."""
         energy = self.deformation_energy
-        return 0.0 if energy is None else excess_deformation(self.quality.score, energy)
+        return 0.0 if energy is None else excess_deformation(self.quality.calibrated_score, energy)
 
     @property
     def unregistered(self) -> Candidate:
@@ -341,6 +355,7 @@ def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
         - numbers.w_heat * quality.heat
         + numbers.w_coverage * quality.coverage
         - numbers.w_laplacian * quality.laplacian
+        - numbers.w_reflection * quality.reflection_error
     )
 
 

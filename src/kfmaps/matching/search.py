@@ -133,7 +133,10 @@ def retry(result: SearchResult, number: int, least: float) -> SearchResult | Non
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
     """Return the samples of one shape that a search with ``rng`` uses, whatever the shape is matched with."""
-    samples = sample_for_scoring(shape.cleaned[0], rng=derived_seed(seed_of(rng)))
+    return _with_self_maps(sample_for_scoring(shape.cleaned[0], rng=derived_seed(seed_of(rng))))
+
+
+def _with_self_maps(samples: ShapeSamples) -> ShapeSamples:
     return with_self_maps(samples, subsample(samples, COARSE_SAMPLES))
 
 
@@ -151,7 +154,7 @@ def _search_samples(
     """
     if probes is None or len(landmarks):
         sides, drawn = zip((source, target), landmarks.T, strict=True), derived_seed(seed)
-        a, b = parallel(lambda s: sample_for_scoring(s[0], rng=drawn, landmarks=s[1]), sides)
+        a, b = parallel(lambda s: _with_self_maps(sample_for_scoring(s[0], rng=drawn, landmarks=s[1])), sides)
         probes = a, b
     assert config.search is not None
     if config.search.match_extremities:
@@ -233,7 +236,7 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     if not samples.are_surfaces:
         return state, ()
     state = _compare_exchanged(state)
-    if state.ranked[0].quality.score >= SCORE.repair_score:
+    if state.ranked[0].quality.calibrated_score >= SCORE.repair_score:
         return state, ()
     ranked = rerank_near_duplicates(state.ranked, state.candidates, samples, proxies)
     kept = state.landmarks[~state.rejected]

@@ -39,7 +39,7 @@ class SearchResult:
     # (d,): numbers, from 0, of the given landmarks that the map contradicts.
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     orientation: str = "preserving"  # or "reversing": whether it is a map to the target or to its mirror image
-    quality: float | None = None  # :attr:`kfmaps.matching.score.Quality.score` of the map of a search
+    quality: float | None = None  # :attr:`kfmaps.matching.score.Quality.calibrated_score` of the map of a search
     deformation_energy: float | None = None  # see :class:`kfmaps.registration.evidence.DeformationEnergy`
     extremities: ExtremityVertices | None = None  # guide the refinement between unlike shapes
     # (n_s, 3): the source's vertices roughly on the target, which guide the refinement between unlike shapes too.
@@ -71,7 +71,7 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     alternatives = [*(c for c, _ in doubts), *rest][: config.search.n_alternatives]
     scores = [best.score, *(best.score - margin for _, margin in doubts), *(c.score for c in rest)]
     margin = max(min(margins, default=np.inf), 0.0)
-    quality = best.quality.score
+    quality = best.quality.calibrated_score
     evidence = quality, margin, best.deformation_energy, support_of_landmarks(best, samples)
     rejected = state.rejected & (state.rejected.all() | still_contradicted(best, samples, state.evidence))
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in alternatives]
