@@ -804,9 +804,36 @@ MUTANTS = tuple(
             "test_contact_projection -k thin",
         ),
         (
-            "return score - numbers.w_torn * (torn_area or 0.0)",
-            "return score",
+            "return match.score.scores[0] - (final_cost(match) or 0.0)",
+            "return match.score.scores[0]",
             "test_alternating_registration -k worth_more",
+        ),
+        ("max(gap - numbers.usual_gap, 0.0)", "max(gap, 0.0)", "test_score -k registration_costs"),
+        (
+            "math.log(max(deformation_energy / numbers.usual_last_deformation, 1.0))",
+            "math.log(deformation_energy / numbers.usual_last_deformation)",
+            "test_score -k registration_costs",
+        ),
+        ("other.reflection[points], points[one.reflection]", "points, points", "test_symmetries -k commute"),
+        (
+            "(partner_s == source) != (partner_t == targets)",
+            "(partner_s == source) == (partner_t == targets)",
+            "test_symmetries -k reflections_say",
+        ),
+        (
+            "differs[:, i] |= targets[:, j] != partner_t[:, i]",
+            "differs[:, i] |= targets[:, j] == partner_t[:, i]",
+            "test_symmetries -k reflections_say",
+        ),
+        (
+            "for score, _, images in found if score > found[0][0] - min_margin",
+            "for score, _, images in found if score > found[0][0] + min_margin",
+            "test_symmetries -k turned_onto",
+        ),
+        (
+            "pair, stop = build_sample_pair(shape, mirror_samples(shape))",
+            "pair, stop = build_sample_pair(shape, shape)",
+            "test_symmetries -k mirror_image_and_back",
         ),
         (
             "replace(result, functional_map=result.functional_map.T) if swapped else result",

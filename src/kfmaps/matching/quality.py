@@ -67,6 +67,8 @@ class ShapeSamples:
     # (m, k, k): self-maps (:func:`kfmaps.matching.self_maps.find_self_maps`) on the coarse samples, which are those of
     # the mirror image too; ``None`` where they have not been computed.
     self_maps: np.ndarray | None = None
+    # (k, k): the map to its own mirror image (:func:`kfmaps.matching.self_maps.find_reflection`), where there is one.
+    reflection_map: np.ndarray | None = None
 
     @cached_property
     def functions(self) -> np.ndarray:
@@ -99,24 +101,9 @@ class ShapeSamples:
 
     @cached_property
     def reflection(self) -> np.ndarray | None:
-        """The sample (q,) to which the reflection of the shape takes each sample; ``None`` without a single one.
-
-        Most bodies are nearly their own mirror images. A shape with several reflections, or with rotations that do not
-        commute with its reflection, as a starfish, has none here: those of two shapes would not correspond.
-        """
-        symmetries = []
-        for C in () if self.self_maps is None else self.self_maps:
-            orientation = _orientation(C, self, self)
-            if abs(orientation) > SCORE.min_symmetry_orientation:
-                functions = self.functions[:, : len(C)]
-                symmetries.append((orientation, nearest(functions, functions @ C.T.astype(np.float32))))
-        reflections = [points for orientation, points in symmetries if orientation < 0.0]
-        if len(reflections) != 1:
-            return None
-        others = [points for orientation, points in symmetries if orientation > 0.0]
-        if any(_unequal_area(reflections[0][p], p[reflections[0]], self, self.areas) > 0.1 for p in others):
-            return None
-        return reflections[0]
+        """The sample (q,) that is the mirror image of each sample on the shape itself; ``None`` where it is unknown."""
+        C = self.reflection_map
+        return None if C is None else nearest(self.functions[:, : len(C)], self.functions[:, : len(C)] @ C.T)
 
     @cached_property
     def reflected_extremities(self) -> np.ndarray | None:

@@ -177,9 +177,6 @@ class Scoring:
     """Distance up to which points are neighbours, whose distance a good map preserves."""
     extremity_radius: float = 0.3
     """Distance from an extremity within which descriptors count once more."""
-    min_symmetry_orientation: float = 0.85
-    """Absolute :attr:`Quality.orientation` from which a self-map is taken for a reflection or a rotation: the
-    reflections of cats and dogs have −0.89 to −1."""
     reflection_distance: float = 0.3
     """Distance from which a point's image and that of its mirror image are not symmetric."""
     min_heat_variance: float = 0.02

@@ -20,7 +20,7 @@ import numpy as np
 from kfmaps._arrays import Array, to_numpy
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
-from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality
+from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality, mirror_samples
 from kfmaps.matching.sample_pair import EXTREMITY_FUNCTIONS, STRONG, SamplePair, build_sample_pair, paired_map
 from kfmaps.matching.score import Quality, select_distinct
 
@@ -30,6 +30,7 @@ _MAX_CANDIDATES = 12
 """Least distorted self-maps of few functions that are refined further; symmetries are among the best eight."""
 _COARSE_FUNCTIONS, _FINE_FUNCTIONS = 14, 40
 """Functions of self-maps when they are chosen, and in the end."""
+_MIN_DIFFERENCE = 0.08  # mean distance, in √area, between the images of two self-maps
 _MIN_DISPLACEMENT = 0.1  # mean distance, in √area, by which a self-map must move points; less is the identity
 
 
@@ -44,10 +45,39 @@ def self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
 
 
 def with_self_maps(shape: ShapeSamples, coarse: ShapeSamples) -> ShapeSamples:
-    """Return samples with the self-maps on the ``coarse`` ones, so that they are computed once for many matches."""
+    """Return samples with the self-maps and the reflection on the ``coarse`` ones, computed once for many matches."""
     functions = coarse.samples.basis.functions.shape[1]
     maps, k = find_self_maps(coarse, functions), _size(coarse, functions)
-    return replace(shape, self_maps=np.array(maps, dtype=np.float64).reshape(len(maps), k, k))
+    self_maps = np.array(maps, dtype=np.float64).reshape(len(maps), k, k)
+    return replace(shape, self_maps=self_maps, reflection_map=find_reflection(coarse, maps))
+
+
+def find_reflection(shape: ShapeSamples, maps: list[np.ndarray]) -> np.ndarray | None:
+    """Return the functional map ``(k, k)`` of a shape to its own mirror image; ``None`` without a single one.
+
+    It begins with the self-``maps`` and with matches of extremities, and is refined with SHOT of the mirror image. A
+    shape with several that are nearly as good, as a starfish, has none: those of two shapes would not correspond.
+    """
+    pair, stop = build_sample_pair(shape, mirror_samples(shape)), _size(shape, shape.samples.basis.functions.shape[1])
+    if shape.orientation is None or stop < 2:
+        return None
+    size = min(EXTREMITY_FUNCTIONS, stop)
+    starts = np.concatenate([*(C[None, :size, :size] for C in maps), _from_extremities(pair, size)])
+    found = []
+    for C, at in zip(*_refined(starts, pair, stop, guided=True), strict=True) if len(starts) else ():
+        quality, images = map_quality(C, pair.source, pair.target, at), shape.positions[at]
+        is_near_isometric = quality.orientation > 0.5 and quality.distortion <= _MAX_DISTORTION
+        if is_near_isometric and _distance(images, shape.positions) > _MIN_DISPLACEMENT:
+            found.append((quality.score, C, images))
+    found.sort(key=lambda one: one[0], reverse=True)
+    min_margin = 1.0  # in score, over another one
+    others = (images for score, _, images in found if score > found[0][0] - min_margin)
+    return found[0][1] if found and all(_distance(one, found[0][2]) <= _MIN_DIFFERENCE for one in others) else None
+
+
+def _distance(a: np.ndarray, b: np.ndarray) -> float:
+    """Return the mean distance of points (q, 3)."""
+    return float(np.linalg.norm(a - b, axis=1).mean())
 
 
 def _size(shape: ShapeSamples, functions: int) -> int:
@@ -83,8 +113,11 @@ def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
 
 
 def _from_extremities(pair: SamplePair, size: int) -> np.ndarray:
-    """Return maps ``(m, size, size)`` of a shape, paired with itself, that take extremities to others like them."""
-    likely = match_extremities(pair.source, pair.source, pair.descriptor_cost, n_compared=50)
+    """Return maps ``(m, size, size)`` of a shape that take extremities to others like them.
+
+    ``pair``: the shape with itself, or with its mirror image.
+    """
+    likely = match_extremities(pair.source, pair.target, pair.descriptor_cost, n_compared=50)
     n_tried = 5  # matches that contradict each other, first of all the identity
     tried = select_distinct(likely, ExtremityMatch.contradicts, n_tried)
     return np.array([paired_map(match, pair, size) for match in tried]).reshape(len(tried), size, size)
@@ -133,7 +166,6 @@ def _least_distorted(
     maps, points = _refined(starts, pair, stop, guided)
     distortions = [map_distortion(C, shape, shape, at) for C, at in zip(maps, points, strict=True)]
     kept: list[tuple[np.ndarray, np.ndarray]] = []
-    min_difference = 0.08  # mean distance, in √area, between the images of two self-maps
     most = 2  # self-maps of each kind: from signs, from rotated pairs and from extremities
     for i in np.argsort(distortions, kind="stable"):
         if distortions[i] > _MAX_DISTORTION or len(kept) == most:
@@ -142,8 +174,8 @@ def _least_distorted(
             continue
         images = shape.positions[points[i]]
         others = [shape.positions, *(other for _, other in (*known, *kept))]
-        off = [float(np.linalg.norm(images - other, axis=1).mean()) for other in others]
-        if off[0] > _MIN_DISPLACEMENT and all(one > min_difference for one in off[1:]):
+        off = [_distance(images, other) for other in others]
+        if off[0] > _MIN_DISPLACEMENT and all(one > _MIN_DIFFERENCE for one in off[1:]):
             kept.append((maps[i], images))
     return kept
 
