@@ -397,7 +397,7 @@ def test_the_match_that_is_worth_more_is_taken(judged):
     assert better_match(known, replace(refused, registration=MatchRegistration())) is known
 
 
-def test_a_match_finishes_all_ways_unless_its_registration_costs_little(judged, monkeypatch):
+def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(judged, monkeypatch):
     source, target = judged.source, judged.target
     other = SearchResult(judged.C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
     asked = []
@@ -406,13 +406,13 @@ def test_a_match_finishes_all_ways_unless_its_registration_costs_little(judged, 
     monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", retries=ways))
     monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config(), registration=None)
-    for cost, ends in ((12.5, "other"), (SCORE.max_registration_cost, "one"), (None, "one")):
+    for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
         for module in (matching, finish):
-            monkeypatch.setattr(module, "final_cost", lambda _match, cost=cost: cost)
+            monkeypatch.setattr(module, "torn_area_fraction", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
         assert found.score.initialization == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
-    assert asked == 3 * [-9.0 - 12.5]
+    assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
 
 
 def test_a_search_tells_what_else_may_turn_out_better(judged, monkeypatch):

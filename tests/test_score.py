@@ -22,8 +22,8 @@ from kfmaps.matching.score import (
     part_score,
     placement_score,
     probability,
-    registration_cost,
     select_distinct,
+    torn_score,
     verdict,
 )
 
@@ -90,7 +90,7 @@ def test_every_weight_of_a_part_counts(weight: str) -> None:
 
 
 def test_the_tables_name_all_weights() -> None:
-    named = {*MEASURES, *CANDIDATE_WEIGHTS, "w_torn", "w_gap", "w_last_deformation"}
+    named = {*MEASURES, *CANDIDATE_WEIGHTS, "w_torn"}
     assert {f.name for f in fields(SCORE) if f.name.startswith("w_")} == named
     assert {f.name for f in fields(SCORE.part) if f.name.startswith("w_")} == set(PART_WEIGHTS)
 
@@ -101,12 +101,9 @@ def test_costs_of_a_part_are_bounded_and_landmarks_cost_more_of_two() -> None:
     assert [part_landmark_cost(np.array([0.11, 0.09, 0.3]), two) for two in (False, True)] == [2.0, 6.0]
 
 
-def test_a_registration_costs_its_torn_area_its_gap_and_an_unusual_deformation() -> None:
-    assert registration_cost(0.1, 0.005, 0.6) == pytest.approx(2.5)
-    assert registration_cost(0.1, 0.002, 0.1) == pytest.approx(2.5)
-    assert registration_cost(0.0, 0.015, 0.6) == pytest.approx(2.0)
-    assert registration_cost(0.0, 0.0, 0.6 * np.e) == pytest.approx(2.0)
-    assert registration_cost(0.1, 0.015, 6.0, without("w_torn", w_gap=0.0, w_last_deformation=0.0)) == 0.0
+def test_torn_area_costs() -> None:
+    assert torn_score(-9.0, 0.1) == pytest.approx(-11.5)
+    assert torn_score(-9.0, None) == torn_score(-9.0, 0.1, without("w_torn")) == -9.0
 
 
 def test_a_probability_does_not_depend_on_how_exact_reflections_are() -> None:

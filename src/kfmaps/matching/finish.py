@@ -26,7 +26,7 @@ from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, registration_cost
+from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, torn_score
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
@@ -282,29 +282,26 @@ def better_match(one: Match, other: Match) -> Match:
     """Return the match with the better :func:`final_score`, with the seconds of ``one``; ``one`` if it is unknown.
 
     Between unlike shapes distances nearby change everywhere. After registration they change much only where a limb is
-    torn or mapped elsewhere, which the score of a search does not show as well. Where a tail and a leg are exchanged,
-    the registration leaves a gap between the surfaces or deforms them far.
+    torn or mapped elsewhere, which the score of a search does not show as well.
     """
-    if final_cost(one) is None or final_cost(other) is None or final_score(other) <= final_score(one):
+    if torn_area_fraction(one) is None or torn_area_fraction(other) is None or final_score(other) <= final_score(one):
         return one
     return replace(other, seconds=one.seconds)
 
 
 def final_score(match: Match) -> float:
-    """Return the score of the match of a search, less the cost of its registration."""
-    return match.score.scores[0] - (final_cost(match) or 0.0)
+    """Return the score of the match of a search, less the cost of its torn area."""
+    return torn_score(match.score.scores[0], torn_area_fraction(match))
 
 
-def final_cost(match: Match) -> float | None:
-    """Return the :func:`registration_cost` of a match; ``None`` without a registration.
+def torn_area_fraction(match: Match) -> float | None:
+    """Return the share of the target where a registered match does not preserve distances nearby, from 0 to 1.
 
-    Without one distances between unlike shapes change everywhere.
+    Return ``None`` for a match without registration: there distances between unlike shapes change everywhere.
     """
-    report, pair = match.registration.report, match._reindexing
-    if report is None or pair is None:
+    if match.registration.report is None or match._reindexing is None:
         return None
-    torn_area = low_confidence_area(pair.given[1].mesh, match.local_confidence)
-    return registration_cost(torn_area, report.gap, report.deformation_energy)
+    return low_confidence_area(match._reindexing.given[1].mesh, match.local_confidence)
 
 
 def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:

@@ -7,8 +7,8 @@
    (:mod:`~kfmaps.matching.search`) or one fit (:mod:`~kfmaps.matching.fit`) gives a functional map, which is refined on
    all vertices and registered (:mod:`~kfmaps.matching.finish`). Where little seems to be missing and no placement of
    the part is clear at once, this is done before the full search for the part.
-4. Where the registration tears the result, leaves a gap or deforms the shape far, other candidates of the search are
-   finished too, and the best is kept.
+4. Where distances around many vertices are not preserved by the result, other candidates of the search are finished
+   too, and the best is kept.
 5. The most probable match is returned. Where a part was suspected and no match is sure, the match with the other shape
    as the part is tried last.
 """
@@ -30,7 +30,7 @@ from kfmaps._threads import limit_threads
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.finish import MatchTask, better_match, final_cost, final_score, refine_and_register
+from kfmaps.matching.finish import MatchTask, better_match, final_score, refine_and_register, torn_area_fraction
 from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
@@ -179,7 +179,7 @@ def _match_wholes(
             progress=report,
             probes=None if is_reversing else probes,  # they are not of the mirror image
         )
-    return _retry_costly(task, found, _finish_result(task, found))
+    return _retry_torn(task, found, _finish_result(task, found))
 
 
 def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[Array, Array] | None) -> SearchResult:
@@ -192,13 +192,13 @@ def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[
     return SearchResult(result.functional_map, ONE_FIT, result, verdict, landmarks=pairs)
 
 
-def _retry_costly(task: MatchTask, found: SearchResult, best: Match) -> Match:
-    """Return ``best`` or, where its registration costs much, the best of it and the other results of a search."""
+def _retry_torn(task: MatchTask, found: SearchResult, best: Match) -> Match:
+    """Return ``best`` or, where much of its area is torn, the best of it and the other results that a search offers."""
     for i in range(len(found.retries)):
-        if (final_cost(best) or 0.0) <= SCORE.max_registration_cost:
+        if (torn_area_fraction(best) or 0.0) <= SCORE.max_torn_area:
             break
         with task.clock(f"another way, {i + 1}"):
-            # A candidate whose score is not above that of the match is no better whatever its registration costs.
+            # A candidate whose score is not above that of the match is no better even if none of its area is torn.
             other = retry(found, i, final_score(best))
             if other is not None:
                 retried = replace(task, clock=StageTimer(task.clock.report))

@@ -158,20 +158,7 @@ class Scoring:
     torn_confidence: float = 0.5
     """Local confidence below which a vertex counts as torn."""
     max_torn_area: float = 0.04
-    """Share of torn area from which a region is called doubtful."""
-    w_gap: float = 200.0
-    """Cost of the gap that the last registration leaves between the surfaces above :attr:`usual_gap`. With a tail and a
-    leg exchanged it is up to 0.0145 (research/unlike-bodies.md)."""
-    usual_gap: float = 0.005
-    """Root mean square gap in √area; right maps of cats and dogs have 0.0046 at most."""
-    w_last_deformation: float = 2.0
-    """Weight of the logarithm of the deformation energy of the last registration over
-    :attr:`usual_last_deformation`."""
-    usual_last_deformation: float = 0.6
-    """Right maps of cats and dogs have 0.59 at most, with a tail and a leg exchanged up to 6.5."""
-    max_registration_cost: float = 1.0
-    """Cost of the last registration (:func:`registration_cost`) from which alternatives are refined and registered
-    too: that of a torn area of 4 %."""
+    """Share of torn area from which alternatives are refined and registered too, and a region is called doubtful."""
 
     local_radius: float = 0.2
     """Distance up to which points are neighbours, whose distance a good map preserves."""
@@ -372,14 +359,9 @@ def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
     return round(evidence - numbers.w_landmark * missed, 9)
 
 
-def registration_cost(torn_area: float, gap: float, deformation_energy: float, numbers: Scoring = SCORE) -> float:
-    """Return by how much the last registration of a map, on all vertices, lowers the score of its candidate.
-
-    ``torn_area``: share of the target's area; ``gap``: root mean square distance of the surfaces, in √area.
-    """
-    deformation = math.log(max(deformation_energy / numbers.usual_last_deformation, 1.0))
-    uncovered = max(gap - numbers.usual_gap, 0.0)
-    return numbers.w_torn * torn_area + numbers.w_gap * uncovered + numbers.w_last_deformation * deformation
+def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) -> float:
+    """Return the score of a map on all vertices: the ``score`` of its candidate less the cost of its torn area."""
+    return score - numbers.w_torn * (torn_area or 0.0)
 
 
 def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
