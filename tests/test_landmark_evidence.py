@@ -342,7 +342,9 @@ def test_a_sure_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
 ) -> None:
     """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""
     best, first, second = (
-        SimpleNamespace(score=score, quality=SimpleNamespace(score=-1.0), deformation_energy=None, missed=missed)
+        SimpleNamespace(
+            score=score, quality=SimpleNamespace(calibrated_score=-1.0), deformation_energy=None, missed=missed
+        )
         for score, missed in ((0.0, [0.0, 0.02]), (ahead, [0.5, 0.4]), (-20.0, [0.5, 0.4]))
     )
     for one in (best, first, second):

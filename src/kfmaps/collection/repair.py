@@ -52,7 +52,7 @@ class MapEvidence:
     """The evidence about a candidate map."""
 
     probability: float  # that it is right, given all other maps
-    score: float  # :attr:`kfmaps.matching.score.Quality.score`
+    score: float  # :attr:`kfmaps.matching.score.Quality.calibrated_score`
     residual: float  # distance from the synchronized maps, see :class:`SyncResult`
 
 

@@ -28,7 +28,7 @@ class ScoredMap:
     """One map of a pair with its score."""
 
     map: np.ndarray  # (k, k): functional map, source → target, with ``k`` = N_FUNCTIONS or fewer
-    score: float  # :attr:`kfmaps.matching.score.Quality.score`
+    score: float  # :attr:`kfmaps.matching.score.Quality.calibrated_score`
     orientation: float  # 1 where it is as the map claims, -1 where it is reversed
     reversed: bool = False  # whether the map claims to lead to the target's mirror image
 
@@ -56,7 +56,7 @@ def score_pair_maps(
         )
         for i, one in zip(rows, refined, strict=True):
             C = one.functional_map[:N_FUNCTIONS, :N_FUNCTIONS]
-            scored[i] = ScoredMap(C, one.quality.score, one.quality.orientation, mirrored)
+            scored[i] = ScoredMap(C, one.quality.calibrated_score, one.quality.orientation, mirrored)
     return [scored[i] for i in range(len(maps))]
 
 

@@ -59,7 +59,8 @@ def find_reflection(shape: ShapeSamples, maps: list[np.ndarray]) -> np.ndarray |
     shape with several that are nearly as good, as a starfish, has none: those of two shapes would not correspond.
     """
     pair, stop = build_sample_pair(shape, mirror_samples(shape)), _size(shape, shape.samples.basis.functions.shape[1])
-    if shape.orientation is None or stop < 2:
+    min_functions = 30  # with fewer the images are too coarse
+    if shape.orientation is None or stop < min_functions:
         return None
     size = min(EXTREMITY_FUNCTIONS, stop)
     starts = np.concatenate([*(C[None, :size, :size] for C in maps), _from_extremities(pair, size)])
