@@ -14,6 +14,7 @@ from kfmaps.datasets import two_poses
 from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_points
+from kfmaps.geometry.sampling import SpectralSamples
 from kfmaps.matching import candidates as found_by
 from kfmaps.matching import orientation, search, search_result
 from kfmaps.matching import self_maps as within
@@ -83,6 +84,14 @@ def test_the_reflection_takes_a_point_to_its_mirror_image_and_back(reflected):
     assert 2 <= (partner != np.arange(len(partner))).sum() < len(partner)
     assert mirror_samples(reflected).reflection == pytest.approx(there)
     assert replace(reflected, reflection_map=None).reflection is None
+
+
+def test_extremities_alone_find_a_reflection_unless_functions_are_few(on):
+    C: Any = find_reflection(on.source, [])
+    assert map_quality(C, on.source, on.source).orientation < -0.9
+    few = SpectralSamples(on.source.samples.vertices, on.source.samples.basis.truncate(29))
+    assert find_reflection(replace(on.source, samples=few), []) is None
+    assert find_reflection(replace(on.source, orientation=None), []) is None
 
 
 def test_a_map_that_does_not_commute_with_the_reflections_is_found(reflected):

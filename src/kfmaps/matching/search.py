@@ -52,10 +52,10 @@ from kfmaps.matching.landmark_conflicts import candidates_without_landmarks, con
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.orientation import choose_orientation
-from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
+from kfmaps.matching.quality import ShapeSamples, sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, ranking, rerank_near_duplicates, with_deformation_energy
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
-from kfmaps.matching.sample_pair import COARSE_SAMPLES, drop_landmarks, two_level_samples
+from kfmaps.matching.sample_pair import drop_landmarks, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, deforms_too_much
 from kfmaps.matching.search_result import SearchResult, build_result
 from kfmaps.matching.search_state import SearchState
@@ -133,11 +133,7 @@ def retry(result: SearchResult, number: int, least: float) -> SearchResult | Non
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
     """Return the samples of one shape that a search with ``rng`` uses, whatever the shape is matched with."""
-    return _with_self_maps(sample_for_scoring(shape.cleaned[0], rng=derived_seed(seed_of(rng))))
-
-
-def _with_self_maps(samples: ShapeSamples) -> ShapeSamples:
-    return with_self_maps(samples, subsample(samples, COARSE_SAMPLES))
+    return with_self_maps(sample_for_scoring(shape.cleaned[0], rng=derived_seed(seed_of(rng))))
 
 
 def _search_samples(
@@ -154,7 +150,7 @@ def _search_samples(
     """
     if probes is None or len(landmarks):
         sides, drawn = zip((source, target), landmarks.T, strict=True), derived_seed(seed)
-        a, b = parallel(lambda s: _with_self_maps(sample_for_scoring(s[0], rng=drawn, landmarks=s[1])), sides)
+        a, b = parallel(lambda s: with_self_maps(sample_for_scoring(s[0], rng=drawn, landmarks=s[1])), sides)
         probes = a, b
     assert config.search is not None
     if config.search.match_extremities:

@@ -8,6 +8,8 @@ not it has found these by itself.
 An intrinsic symmetry maps each simple eigenfunction to itself or to its negative (Ovsjanikov, Sun and Guibas 2008). A
 symmetry of order three or more, as that of a starfish, rotates pairs of functions with one eigenvalue. Where functions
 with other symmetries happen to have one eigenvalue, as those of a table, it still takes extremities to each other.
+
+The map of a body to its own mirror image is evidence, too: a right map of two bodies commutes with their reflections.
 """
 
 from __future__ import annotations
@@ -20,8 +22,15 @@ import numpy as np
 from kfmaps._arrays import Array, to_numpy
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
-from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality, mirror_samples
-from kfmaps.matching.sample_pair import EXTREMITY_FUNCTIONS, STRONG, SamplePair, build_sample_pair, paired_map
+from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality, mirror_samples, subsample
+from kfmaps.matching.sample_pair import (
+    COARSE_SAMPLES,
+    EXTREMITY_FUNCTIONS,
+    STRONG,
+    SamplePair,
+    build_sample_pair,
+    paired_map,
+)
 from kfmaps.matching.score import Quality, select_distinct
 
 _MAX_DISTORTION = 0.12
@@ -44,8 +53,9 @@ def self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
     return find_self_maps(shape, functions)
 
 
-def with_self_maps(shape: ShapeSamples, coarse: ShapeSamples) -> ShapeSamples:
-    """Return samples with the self-maps and the reflection on the ``coarse`` ones, computed once for many matches."""
+def with_self_maps(shape: ShapeSamples) -> ShapeSamples:
+    """Return samples with the self-maps and the reflection, which are found on the coarse ones among them."""
+    coarse = subsample(shape, COARSE_SAMPLES)
     functions = coarse.samples.basis.functions.shape[1]
     maps, k = find_self_maps(coarse, functions), _size(coarse, functions)
     self_maps = np.array(maps, dtype=np.float64).reshape(len(maps), k, k)
