@@ -48,8 +48,9 @@ from kfmaps.registration.evidence import registered_shot_error
 
 N_REPAIRED = 2
 """First candidates that are repaired, whether or not they differ."""
-N_MATCHES = 3
-"""Likeliest extremity matches that are repaired, unless a candidate has the same."""
+N_MATCHES = 1
+"""Likeliest extremity matches that are repaired, unless a candidate has the same; more change nothing
+(research/subtraction.md)."""
 
 
 @dataclass(frozen=True, eq=False)
