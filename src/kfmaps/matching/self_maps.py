@@ -68,22 +68,26 @@ def find_reflection(shape: ShapeSamples, maps: list[np.ndarray]) -> np.ndarray |
     It begins with the self-``maps`` and with matches of extremities, and is refined with SHOT of the mirror image. A
     shape with several that are nearly as good, as a starfish, has none: those of two shapes would not correspond.
     """
-    pair, stop = build_sample_pair(shape, mirror_samples(shape)), _size(shape, shape.samples.basis.functions.shape[1])
+    stop = _size(shape, shape.samples.basis.functions.shape[1])
     min_functions = 30  # with fewer the images are too coarse
     if shape.orientation is None or stop < min_functions:
         return None
-    size = min(EXTREMITY_FUNCTIONS, stop)
+    pair, size = build_sample_pair(shape, mirror_samples(shape)), EXTREMITY_FUNCTIONS
     starts = np.concatenate([*(C[None, :size, :size] for C in maps), _from_extremities(pair, size)])
+    if len(starts) == 0:
+        return None
     found = []
-    for C, at in zip(*_refined(starts, pair, stop, guided=True), strict=True) if len(starts) else ():
+    for C, at in zip(*_refined(starts, pair, stop, guided=True), strict=True):
         quality, images = map_quality(C, pair.source, pair.target, at), shape.positions[at]
         is_near_isometric = quality.orientation > 0.5 and quality.distortion <= _MAX_DISTORTION
         if is_near_isometric and _distance(images, shape.positions) > _MIN_DISPLACEMENT:
             found.append((quality.score, C, images))
-    found.sort(key=lambda one: one[0], reverse=True)
+    if not found:
+        return None
+    best, reflection, positions = max(found, key=lambda one: one[0])
     min_margin = 1.0  # in score, over another one
-    others = (images for score, _, images in found if score > found[0][0] - min_margin)
-    return found[0][1] if found and all(_distance(one, found[0][2]) <= _MIN_DIFFERENCE for one in others) else None
+    rivals = (images for score, _, images in found if score > best - min_margin)
+    return reflection if all(_distance(images, positions) <= _MIN_DIFFERENCE for images in rivals) else None
 
 
 def _distance(a: np.ndarray, b: np.ndarray) -> float:
