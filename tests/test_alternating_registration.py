@@ -182,7 +182,6 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(judged, monkeypatc
     mirror = next(one for one in others if one.contradicts(best))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
     monkeypatch.setattr(mending, "complete_match", lambda one, _likely: one)
-    monkeypatch.setattr(mending, "N_MATCHES", 2)
     begun, asked = [], []
 
     def tips_of(pairing, *rest):

@@ -48,9 +48,8 @@ from kfmaps.registration.evidence import registered_shot_error
 
 N_REPAIRED = 2
 """First candidates that are repaired, whether or not they differ."""
-N_MATCHES = 1
-"""Likeliest extremity matches that are repaired, unless a candidate has the same; more change nothing
-(research/subtraction.md)."""
+N_MATCHES = 3
+"""Likeliest extremity matches that are repaired, unless a candidate has the same."""
 
 
 @dataclass(frozen=True, eq=False)
