@@ -254,7 +254,7 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
 
     assert min(turns()) < 0.05
     assert find_reflection(of, find_self_maps(of, 60)) is None  # one of two
-    monkeypatch.setattr(within, "_keeps_shot", lambda quality: quality.orientation < 0.5)
+    monkeypatch.setattr(within, "_keeps_shot", lambda quality, _shape: quality.orientation < 0.5)
     assert not turns()
 
 
@@ -270,23 +270,24 @@ def test_a_worm_is_turned_about_its_axis():
         assert np.linalg.norm(off[:, :2], axis=1).mean() > 0.1 > 0.05 > np.abs(off[:, 2]).mean()
 
 
-def test_two_copies_of_a_body_change_places():
+@pytest.mark.parametrize("seed", range(3))
+def test_two_copies_of_a_body_change_places(seed):
     one = two_poses(1500).source
-    both = Mesh(
-        np.vstack([one.vertices, one.vertices + np.array([3.0, 0, 0])]),
-        np.vstack([one.faces, one.faces + len(one.vertices)]),
-    )
+    vertices = np.vstack([one.vertices, one.vertices + np.array([3.0, 0, 0])])
+    # Every eigenvalue is double: rounding errors decide which functions of its eigenspace are taken.
+    vertices *= 1 + 1e-13 * np.random.default_rng(seed).standard_normal(vertices.shape)
+    both = Mesh(vertices, np.vstack([one.faces, one.faces + len(one.vertices)]))
     of = subsample(sample_for_scoring(prepare(both, SMALL)), 400)
     is_first = of.positions[:, 0] < np.median(of.positions[:, 0])
     changes = [(is_first != is_first[images_of(C, of)]).mean() for C in find_self_maps(of, 60)]
     assert max(changes) > 0.9
 
 
-def test_a_self_map_keeps_orientation_and_shot():
-    kept = Quality(0.98, 0.05, 0.15, 0.12, 0.01, 0.9, 0.05)
-    assert within._keeps_shot(kept)
-    assert not within._keeps_shot(replace(kept, orientation=-0.98))
-    assert not within._keeps_shot(replace(kept, descriptors=0.26))
+def test_a_self_map_keeps_orientation_and_shot(on):
+    kept = Quality(0.98, 0.05, 0.15, 0.8 * on.source.neighbor_difference, 0.01, 0.9, 0.05)
+    assert within._keeps_shot(kept, on.source)
+    assert not within._keeps_shot(replace(kept, orientation=-0.98), on.source)
+    assert not within._keeps_shot(replace(kept, descriptors=0.9 * on.source.neighbor_difference), on.source)
 
 
 def test_a_map_that_only_a_composition_leads_to_is_composed_too(monkeypatch, symmetric):

@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, like, to_numpy
 from kfmaps.descriptors.shot import mirror_shot
@@ -120,6 +121,13 @@ class ShapeSamples:
     @cached_property
     def descriptor_rows(self) -> _DescriptorRows | None:
         return None if self.descriptors is None else _DescriptorRows.of(self.descriptors)
+
+    @cached_property
+    def neighbor_difference(self) -> float:
+        """The difference of SHOT between a sample and the nearest other one, in the unit of `Quality.descriptors`."""
+        near = np.asarray(KDTree(self.positions).query(self.positions, k=2)[1])[:, 1]
+        squares = _squares(near, self.descriptor_rows, self.descriptor_rows, FLAT)
+        return 0.0 if squares is None else float(squares[0] @ self.areas / squares[1])
 
     @cached_property
     def heat_rows(self) -> _DescriptorRows:

@@ -185,7 +185,7 @@ def _least_distorted(
     for i in np.argsort(distortions, kind="stable"):
         if distortions[i] > _MAX_DISTORTION or len(kept) == most:
             break
-        if guided and not _keeps_shot(map_quality(maps[i], shape, shape, points[i])):
+        if guided and not _keeps_shot(map_quality(maps[i], shape, shape, points[i]), shape):
             continue
         images = shape.positions[points[i]]
         others = [shape.positions, *(other for _, other in (*known, *kept))]
@@ -195,9 +195,13 @@ def _least_distorted(
     return kept
 
 
-def _keeps_shot(quality: Quality) -> bool:
-    """Return whether a self-map keeps the orientation and SHOT; one that turns a person around has 0.26 or more."""
-    return quality.orientation > 0.5 and quality.descriptors < 0.25
+def _keeps_shot(quality: Quality, shape: ShapeSamples) -> bool:
+    """Return whether a self-map keeps the orientation, and SHOT as far as samples so far apart can tell.
+
+    In units of the difference between neighbors a map onto an identical copy has 0.6, one that turns a person around
+    0.95.
+    """
+    return quality.orientation > 0.5 and quality.descriptors < 0.85 * shape.neighbor_difference
 
 
 def _changes(maps: np.ndarray, shape: ShapeSamples) -> tuple[np.ndarray, np.ndarray]:
