@@ -17,15 +17,12 @@ from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching import landmark_conflicts, ranking
+from kfmaps.matching import ranking, search
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
-from kfmaps.matching.landmark_conflicts import candidates_without_landmarks
-from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
-from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import evidence as looks
@@ -245,26 +242,51 @@ def test_what_is_far_behind_is_not_looked_at(judged):
     assert [c.shot_error for c in found] == pytest.approx([0.2, worst, worst])
 
 
-def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
+@pytest.mark.parametrize(
+    ("told", "errors", "orientation", "settled"),
+    [
+        ("sure", [0.0, 0.12], "preserving", True),
+        ("sure", [0.0, 0.121], "preserving", False),
+        ("sure", [0.0, 0.0], "reversing", False),
+        ("likely", [0.0, 0.0], "preserving", False),
+    ],
+)
+def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
+    monkeypatch, creatures, told, errors, orientation, settled
+):
     source, target, truth = creatures
     marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
-    probes = [sample_for_scoring(s, 200, landmarks=at) for s, at in zip((source, target), marks.T, strict=True)]
-    on = two_level_samples(source, target, (probes[0], probes[1]), marks)
-    asked = []
+    asked, ranked = [], []
 
     def few(*what, **how):
         asked.append((what[3], how))
-        return score_maps([Start("free", np.eye(40))], what[3].fine)
+        return score_maps([Start("free" if len(asked) == 1 else "led", np.eye(40))], what[3].fine)
 
-    monkeypatch.setattr(landmark_conflicts, "candidates", few)
-    found = candidates_without_landmarks(source, target, kfmaps.Config(), on, 3, descriptors=None)
-    alone, how = asked[0]
-    assert how == {"descriptors": None}
-    assert alone.coarse.landmark_evidence is None
-    assert alone.coarse.landmark_cost is None
-    assert alone.fine.landmark_evidence is None
-    assert alone.fine.landmark_cost is None
-    assert alone.fine.descriptor_cost is on.fine.descriptor_cost
-    assert [c.name for c in found] == ["free"]
-    assert found[0].landmark_errors.shape == (2,)
-    np.testing.assert_array_equal(found[0].functional_map, np.eye(40))
+    def rank(state):
+        ranked.append(state)
+        return replace(state, ranked=state.candidates)
+
+    made = search.build_result
+    monkeypatch.setattr(search, "build_result", lambda *of: replace(made(*of), verdict=told, orientation=orientation))
+    monkeypatch.setattr(search, "candidates", few)
+    monkeypatch.setattr(search, "_rank", rank)
+    monkeypatch.setattr(search, "_improve_best", lambda state, _report: (state, ()))
+    monkeypatch.setattr(search, "contradicted_landmarks", lambda _state: (np.zeros(2, dtype=bool), ()))
+    monkeypatch.setattr(search, "landmark_errors", lambda *_: np.array(errors))
+    result = search.search_map(source, target, kfmaps.Config(), landmarks=marks)
+    samples, how = asked[0]
+    assert how.get("landmarks") is None
+    for pair in (samples.coarse, samples.fine):
+        assert pair.landmark_evidence is None
+        assert pair.landmark_cost is None
+    assert len(ranked[0].landmarks) == 0
+    np.testing.assert_array_equal(result.landmarks, marks)
+    assert result._search is not None
+    assert result._search.samples.fine.landmark_evidence is not None
+    if settled:
+        assert len(asked) == 1
+        return
+    np.testing.assert_array_equal(asked[1][1]["landmarks"], marks)
+    assert asked[1][0].fine.landmark_cost is not None
+    assert [c.name for c in ranked[1].candidates] == ["led", "free"]
+    assert [c.landmark_errors.shape for c in ranked[1].without_landmarks] == [(2,)]

@@ -467,38 +467,3 @@ def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, symmetr
     assert len(np.unique(few)) <= 500
     off = np.linalg.norm(source.mesh.vertices[few] - source.mesh.vertices[whole], axis=1)
     assert 0 < off.mean() < 2 / np.sqrt(500)
-
-
-@pytest.mark.parametrize(
-    ("distortion", "guided", "errors", "settled"),
-    [
-        (1.0, True, [0.0, 0.05], True),
-        (1.0, True, [0.0, 0.051], False),
-        (1.0, True, [*[0.0] * 9, 0.12], True),
-        (1.0, True, [*[0.0] * 9, 0.121], False),
-        (2.0, True, [0.0, 0.0], False),  # 1 - 6 · 2 is below
-        (1.0, False, [0.0, 0.0], False),
-    ],
-)
-def test_landmarks_that_a_clear_map_keeps_to_begin_no_other_maps(
-    monkeypatch, symmetric, distortion, guided, errors, settled
-):
-    quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
-    best = Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided, np.array(errors))
-    asked = []
-
-    class Ranked(Exception):
-        pass
-
-    def rank(_state):
-        raise Ranked
-
-    monkeypatch.setattr(search, "candidates_without_landmarks", lambda *_, **__: [best])
-    monkeypatch.setattr(search, "score_maps", lambda found, _pair: found)
-    monkeypatch.setattr(search, "rerefine", lambda found, _pair: found)
-    monkeypatch.setattr(search, "candidates", lambda *_, **__: asked.append(True) or [])
-    monkeypatch.setattr(search, "_rank", rank)
-    marks = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
-    with pytest.raises(Ranked):
-        search.search_map(symmetric.source, symmetric.target, SMALL, landmarks=marks)
-    assert bool(asked) != settled

@@ -7,16 +7,14 @@ the best map keeps to most of the others, or where a map that was found without 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import to_numpy
-from kfmaps.config import Config
-from kfmaps.matching.candidates import candidates, map_distance, rerefine, score_maps
+from kfmaps.matching.candidates import map_distance, rerefine
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
 from kfmaps.matching.ranking import ranking
-from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
+from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
@@ -26,17 +24,6 @@ from kfmaps.matching.score import (
     verdict,
 )
 from kfmaps.matching.search_state import SearchState
-from kfmaps.shape import Shape
-
-
-def candidates_without_landmarks(
-    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, rng: int, **options: Any
-) -> list[Candidate]:
-    """Return candidates that landmarks took no part in, scored with them: landmarks only add candidates to a search."""
-    bare = TwoLevelSamples(
-        *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.coarse, samples.fine))
-    )
-    return score_maps(candidates(source, target, config, bare, rng, **options), samples.fine)
 
 
 def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[Candidate, float], ...]]:

@@ -36,20 +36,17 @@ from kfmaps._threads import limit_threads, parallel
 from kfmaps.config import Config
 from kfmaps.matching.candidates import (
     FINE_FUNCTIONS,
-    by_score,
     candidates,
     derived_seed,
     distinct_maps,
-    has_clear_map,
     map_distance,
-    rerefine,
     score_maps,
 )
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
-from kfmaps.matching.landmark_conflicts import candidates_without_landmarks, contradicted_landmarks
-from kfmaps.matching.landmark_evidence import build_guidance
+from kfmaps.matching.landmark_conflicts import contradicted_landmarks
+from kfmaps.matching.landmark_evidence import build_guidance, landmark_errors
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.orientation import choose_orientation
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring
@@ -87,37 +84,32 @@ def search_map(
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
     with limit_threads(config.threads):
-        samples = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
+        probes = _search_samples(source, target, config, pairs, seed, probes)
+        samples = two_level_samples(source, target, probes)
         report("candidates", 0.1)
         descriptors = user_descriptors(source, target, config.descriptors, descriptors)
         state = SearchState(
             source,
             target,
             config,
-            landmarks=pairs,
-            evidence=samples.fine.landmark_evidence,
-            rejected=np.zeros(len(pairs), dtype=bool),
+            landmarks=pairs[:0],
+            evidence=None,
+            rejected=np.zeros(0, dtype=bool),
             samples=samples,
             proxies=ProxyCache.of(source, target, samples.fine),
             candidates=[],
             ranked=[],
             orientation="reversing" if is_reversing else "preserving",
         )
-        if len(pairs):
-            part = _candidates_between(report, 0.1, 0.5)
-            free = candidates_without_landmarks(
-                source, target, config, samples, seed, descriptors=descriptors, report=part
-            )
-            state = replace(state, without_landmarks=free)
-        part = _candidates_between(report, 0.5 if len(pairs) else 0.1, 0.9)
-        ranked = _rank_candidates(state, seed, descriptors, part)
-        if len(pairs):
-            rejected, doubts = contradicted_landmarks(ranked)
-            if rejected.any():
-                ranked = _rank_candidates(replace(state, rejected=rejected), seed, descriptors, part)
-            ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
-        state, retries = _improve_best(ranked, report)
-        return replace(build_result(state, state.ranked[0], state.ranked[1:]), retries=retries)
+        part = _candidates_between(report, 0.1, 0.5 if len(pairs) else 0.9)
+        free = candidates(source, target, config, samples, seed, descriptors=descriptors, report=part)
+        found = _result(*_improve_best(_rank(replace(state, candidates=free)), report))
+        if len(pairs) == 0:
+            return found
+        samples = two_level_samples(source, target, probes, pairs)
+        evidence, rejected = samples.fine.landmark_evidence, np.zeros(len(pairs), dtype=bool)
+        state = replace(state, landmarks=pairs, evidence=evidence, rejected=rejected, samples=samples)
+        return _search_with_landmarks(replace(state, without_landmarks=free), found, seed, descriptors, report)
 
 
 def retry(result: SearchResult, number: int, least: float) -> SearchResult | None:
@@ -164,33 +156,55 @@ def _candidates_between(report: Progress, begin: float, end: float) -> Callable[
     return lambda done: report("candidates", begin + (end - begin) * done)
 
 
-def _rank_candidates(
-    state: SearchState, seed: int, descriptors: tuple[Array, Array] | None, report: Callable[[float], None]
-) -> SearchState:
-    """Make candidates with the landmarks that are not rejected, and rank them with those found without landmarks."""
-    kept = state.landmarks[~state.rejected]
-    if state.rejected.any():
-        state = replace(state, samples=drop_landmarks(state.samples, state.rejected))
-    free = score_maps(state.without_landmarks, state.samples.fine)
-    found: list[Candidate] = []
-    if len(kept) and _is_settled(by_score(free)[0]):
-        found = rerefine(free, state.samples.fine)
-    elif len(kept) or not len(state.landmarks):
-        pair = state.source, state.target
-        found = candidates(
-            *pair, state.config, state.samples, seed, landmarks=kept, descriptors=descriptors, report=report
-        )
-    return _rank(replace(state, candidates=[*found, *free], without_landmarks=free))
+def _search_with_landmarks(
+    state: SearchState,
+    found: SearchResult,
+    seed: int,
+    descriptors: tuple[Array, Array] | None,
+    report: Progress,
+) -> SearchResult:
+    """Return the result of a search with landmarks, without those that its best map contradicts.
 
-
-def _is_settled(best: Candidate) -> bool:
-    """Return whether the best map that was found without landmarks is clear and keeps closely to all of them.
-
-    Then landmarks only refine it. From a map that is farther off they may lead to a better one.
+    ``state``: before the search, with the landmarks; ``found``: the result of the search without them.
     """
-    errors = best.landmark_errors
-    keeps_all = bool((errors <= SCORE.max_isometric_landmark_error).all())
-    return keeps_all and float(errors.mean()) <= SCORE.max_mean_landmark_error and has_clear_map([best])
+
+    def rank(state: SearchState) -> SearchState:
+        """Rank candidates that are made with the landmarks together with those that were found without."""
+        samples, kept = state.samples, state.landmarks[~state.rejected]
+        free, led = score_maps(state.without_landmarks, samples.fine), []
+        if len(kept):
+            pair, part = (state.source, state.target), _candidates_between(report, 0.5, 0.9)
+            led = candidates(*pair, state.config, samples, seed, landmarks=kept, descriptors=descriptors, report=part)
+        return _rank(replace(state, candidates=[*led, *free], without_landmarks=free))
+
+    settled = _settled_result(found, state)
+    if settled is not None:
+        return settled
+    ranked = rank(state)
+    rejected, doubts = contradicted_landmarks(ranked)
+    if rejected.any():
+        state = replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected))
+        settled = _settled_result(found, state)
+        if settled is not None:
+            return settled
+        ranked = rank(state)
+    return _result(*_improve_best(replace(ranked, doubts=(*ranked.doubts, *doubts)), report))
+
+
+def _settled_result(found: SearchResult, state: SearchState) -> SearchResult | None:
+    """Return the result ``found`` without landmarks with those of ``state``, if it is "sure" and keeps to them all.
+
+    Then they only refine it: right landmarks never make it less certain.
+    """
+    best, evidence = found._search, state.samples.fine.landmark_evidence
+    if best is None or found.verdict != "sure" or found.orientation != state.orientation:
+        return None
+    if evidence is not None:
+        functions = state.samples.fine.source.samples.basis.functions
+        if (landmark_errors(found.functional_map, functions, evidence) > SCORE.max_isometric_landmark_error).any():
+            return None
+    marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)
+    return _result(replace(marked, samples=state.samples), found.retries)
 
 
 def _rank(state: SearchState) -> SearchState:
@@ -224,6 +238,11 @@ def _repair_best(state: SearchState) -> SearchState:
     start = Start(best.name, last.functional_map[:FINE_FUNCTIONS, :FINE_FUNCTIONS], best.uses_descriptors, fit=best.fit)
     repaired = with_deformation_energy(score_maps([start], state.samples.fine), proxies)[0]
     return replace(state, ranked=[repaired, *state.ranked[1:]]) if repaired.score > best.score else state
+
+
+def _result(state: SearchState, retries: tuple[Candidate | SwappedRepair, ...]) -> SearchResult:
+    """Return the best candidate as the result of a search."""
+    return replace(build_result(state, state.ranked[0], state.ranked[1:]), retries=retries)
 
 
 def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tuple[Candidate | SwappedRepair, ...]]:
