@@ -889,6 +889,8 @@ MUTANTS = tuple(
             "test_symmetries -k early",
         ),
         ("coarse, weights[:_N_EARLY_WEIGHTS])", "coarse, weights)", "test_symmetries -k near_symmetries"),
+        ("< 0.85 * shape.neighbor_difference", "< 0.25", "test_symmetries -k keeps_orientation"),
+        ("squares[0] @ self.areas / squares[1]", "squares[0] @ self.areas", "test_symmetries -k neighbors_differ"),
         (
             "rest[np.isinf(rest)] = np.stack(detours)[np.isinf(rest)]",
             "rest[np.isinf(rest)] = 2 * np.stack(detours)[np.isinf(rest)]",

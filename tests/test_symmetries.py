@@ -283,6 +283,14 @@ def test_two_copies_of_a_body_change_places(seed):
     assert max(changes) > 0.9
 
 
+def test_neighbors_differ_by_a_share_of_random_samples(on):
+    of = on.source
+    apart = np.linalg.norm(of.positions[:, None] - of.positions, axis=2) + np.diag(np.full(len(of.positions), np.inf))
+    squares = ((of.descriptors[:, None] - of.descriptors) ** 2).sum(axis=2)
+    near = squares[np.arange(len(squares)), apart.argmin(axis=1)] @ of.areas
+    assert of.neighbor_difference == pytest.approx(near / squares.mean(), rel=1e-4)
+
+
 def test_a_self_map_keeps_orientation_and_shot(on):
     kept = Quality(0.98, 0.05, 0.15, 0.8 * on.source.neighbor_difference, 0.01, 0.9, 0.05)
     assert within._keeps_shot(kept, on.source)
