@@ -1028,6 +1028,13 @@ MUTANTS = tuple(
         ('found.verdict != "sure" or ', "", "test_registration_evidence -k only_refine"),
         (" or found.orientation != state.orientation", "", "test_registration_evidence -k only_refine"),
         ("> SCORE.max_isometric_landmark_error).any()", "> 9).any()", "test_registration_evidence -k only_refine"),
+        ("not found.is_near_isometric or float(errors", "float(errors", "test_registration_evidence -k only_refine"),
+        (
+            "float(errors.mean()) <= SCORE.max_mean_landmark",
+            "9.0 <= SCORE.max_mean_landmark",
+            "test_registration_evidence",
+        ),
+        ('settled is None or result.verdict == "sure"', "True", "test_registration_evidence -k only_refine"),
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (

@@ -24,6 +24,7 @@ from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
 from kfmaps.matching.score import SCORE
+from kfmaps.matching.search_result import build_result
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import evidence as looks
 from kfmaps.registration.alternating_registration import proxy_pair
@@ -243,17 +244,22 @@ def test_what_is_far_behind_is_not_looked_at(judged):
 
 
 @pytest.mark.parametrize(
-    ("told", "errors", "orientation", "settled"),
+    ("told", "errors", "quality", "orientation", "outcome"),
     [
-        ("sure", [0.0, 0.12], "preserving", True),
-        ("sure", [0.0, 0.121], "preserving", False),
-        ("sure", [0.0, 0.0], "reversing", False),
-        ("likely", [0.0, 0.0], "preserving", False),
+        ("sure", [0.0, 0.05], -4.0, "preserving", "settled"),
+        ("sure", [0.0, 0.051], -4.0, "preserving", "led"),
+        ("sure", [0.0, 0.12], -9.0, "preserving", "settled"),
+        ("sure", [0.0, 0.121], -9.0, "preserving", "led"),
+        ("sure", [0.0, 0.0], -4.0, "reversing", "led"),
+        ("likely", [0.0, 0.0], -4.0, "preserving", "led"),
+        ("less", [0.0, 0.051], -4.0, "preserving", "as found"),
+        ("less", [0.0, 0.121], -4.0, "preserving", "led"),
     ],
 )
 def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
-    monkeypatch, creatures, told, errors, orientation, settled
+    monkeypatch, creatures, told, errors, quality, orientation, outcome
 ):
+    """``told``: the verdict without landmarks; with "less" a map that landmarks have led to is less sure."""
     source, target, truth = creatures
     marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
     asked, ranked = [], []
@@ -266,8 +272,12 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         ranked.append(state)
         return replace(state, ranked=state.candidates)
 
-    made = search.build_result
-    monkeypatch.setattr(search, "build_result", lambda *of: replace(made(*of), verdict=told, orientation=orientation))
+    def made(state, best, rest):
+        verdict = told if told != "less" else "sure" if best.name == "free" else "likely"
+        fields = {"verdict": verdict, "quality": quality, "orientation": orientation}
+        return replace(build_result(state, best, rest), **fields)
+
+    monkeypatch.setattr(search, "build_result", made)
     monkeypatch.setattr(search, "candidates", few)
     monkeypatch.setattr(search, "_rank", rank)
     monkeypatch.setattr(search, "_improve_best", lambda state, _report: (state, ()))
@@ -283,8 +293,9 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     np.testing.assert_array_equal(result.landmarks, marks)
     assert result._search is not None
     assert result._search.samples.fine.landmark_evidence is not None
-    if settled:
-        assert len(asked) == 1
+    assert len(asked) == (1 if outcome == "settled" else 2)
+    assert result.initialization == ("led" if outcome == "led" else "free")
+    if outcome == "settled":
         return
     np.testing.assert_array_equal(asked[1][1]["landmarks"], marks)
     assert asked[1][0].fine.landmark_cost is not None

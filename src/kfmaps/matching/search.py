@@ -177,34 +177,38 @@ def _search_with_landmarks(
             led = candidates(*pair, state.config, samples, seed, landmarks=kept, descriptors=descriptors, report=part)
         return _rank(replace(state, candidates=[*led, *free], without_landmarks=free))
 
-    settled = _settled_result(found, state)
-    if settled is not None:
+    settled, is_close = _settled_result(found, state)
+    if settled is not None and is_close:
         return settled
     ranked = rank(state)
     rejected, doubts = contradicted_landmarks(ranked)
     if rejected.any():
         state = replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected))
-        settled = _settled_result(found, state)
-        if settled is not None:
+        settled, is_close = _settled_result(found, state)
+        if settled is not None and is_close:
             return settled
         ranked = rank(state)
-    return _result(*_improve_best(replace(ranked, doubts=(*ranked.doubts, *doubts)), report))
+    result = _result(*_improve_best(replace(ranked, doubts=(*ranked.doubts, *doubts)), report))
+    return result if settled is None or result.verdict == "sure" else settled
 
 
-def _settled_result(found: SearchResult, state: SearchState) -> SearchResult | None:
+def _settled_result(found: SearchResult, state: SearchState) -> tuple[SearchResult | None, bool]:
     """Return the result ``found`` without landmarks with those of ``state``, if it is "sure" and keeps to them all.
 
-    Then they only refine it: right landmarks never make it less certain.
+    Then they only refine it: right landmarks never make it less certain. Also return whether it keeps to them so
+    closely that maps which begin with them would be no better. Between unlike shapes none would.
     """
     best, evidence = found._search, state.samples.fine.landmark_evidence
     if best is None or found.verdict != "sure" or found.orientation != state.orientation:
-        return None
+        return None, False
+    errors = np.zeros(1)
     if evidence is not None:
-        functions = state.samples.fine.source.samples.basis.functions
-        if (landmark_errors(found.functional_map, functions, evidence) > SCORE.max_isometric_landmark_error).any():
-            return None
+        errors = landmark_errors(found.functional_map, state.samples.fine.source.samples.basis.functions, evidence)
+    if (errors > SCORE.max_isometric_landmark_error).any():
+        return None, False
     marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)
-    return _result(replace(marked, samples=state.samples), found.retries)
+    is_close = not found.is_near_isometric or float(errors.mean()) <= SCORE.max_mean_landmark_error
+    return _result(replace(marked, samples=state.samples), found.retries), is_close
 
 
 def _rank(state: SearchState) -> SearchState:
