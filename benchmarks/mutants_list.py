@@ -287,6 +287,7 @@ MUTANTS = tuple(
             "1.0 - math.exp(-max(margin, 0.0) / numbers.tie)",
             "test_score",
         ),
+        ("steep = numbers.sure * float", "steep = 1.0 * float", "test_score"),
         (
             "numbers.slope * (score - numbers.middle)",
             "numbers.slope * (numbers.middle - score)",

@@ -188,7 +188,8 @@ def test_confidence_follows_from_score_bending_and_margin(shape):
     assert found.scores[0] == pytest.approx(found.quality - 5 * np.log(found.deformation_energy / 0.15))
     margin = found.scores[0] - found.scores[1]
     excess = np.log(found.deformation_energy) + 3.6 + 0.233 * found.quality
-    right = (1 - 0.5 * np.exp(-margin / 1.4)) / (1 + np.exp(-0.92 * (found.quality + 12.0)))
+    flat, steep = 1 / (1 + np.exp(-0.92 * (found.quality + 11.8))), 0.9 / (1 + np.exp(-4 * (found.quality + 12.0)))
+    right = (1 - 0.5 * np.exp(-margin / 1.4)) * max(flat, steep)
     right /= 1 + np.exp(12.5 * (excess - 0.75))
     assert found.confidence == pytest.approx(right)
     assert (found.verdict == "sure") == (right >= 0.9)

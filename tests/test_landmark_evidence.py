@@ -104,7 +104,7 @@ def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> N
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    harder = replace(SCORE.calibration, middle=0.0)
+    harder = replace(SCORE.calibration, middle=0.0, steep_middle=0.0)
     monkeypatch.setattr(search_result, "probability", partial(probability, numbers=harder))
     monkeypatch.setattr(search_result, "verdict", partial(verdict, numbers=harder))
     config = replace(kfmaps.Config(), threads=1)

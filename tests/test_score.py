@@ -120,22 +120,25 @@ def test_what_is_not_known_costs_nothing() -> None:
 
 
 CALIBRATIONS = pytest.mark.parametrize(
-    ("numbers", "slope", "middle", "tie"),
+    ("numbers", "slope", "middle", "steep_middle", "tie"),
     [
-        (SCORE.calibration, 0.92, -11.8, 1.4),
-        (SCORE.part.calibration, 1 / 0.43, 16.2, 1.3),
-        (SCORE.part.calibration_of_two, 1 / 2.7, 9.9, 1.3),
+        (SCORE.calibration, 0.92, -11.8, -12.0, 1.4),
+        (SCORE.part.calibration, 1 / 0.43, 16.2, np.inf, 1.3),
+        (SCORE.part.calibration_of_two, 1 / 2.7, 9.9, np.inf, 1.3),
     ],
     ids=["wholes", "part", "two parts"],
 )
 
 
 @CALIBRATIONS
-def test_the_probability_is_that_of_the_manual(numbers: Calibration, slope: float, middle: float, tie: float) -> None:
+def test_the_probability_is_that_of_the_manual(
+    numbers: Calibration, slope: float, middle: float, steep_middle: float, tie: float
+) -> None:
     """docs/mathematics.md: score, margin, deformation, and landmarks that take away doubt."""
     for above, margin in itertools.product((-3.0, 0.0, 2.0, 1e4), (-1.0, 0.0, 0.3, 1.4, np.inf)):
         score = middle + above
-        fits = (1 - 0.5 * np.exp(-max(margin, 0) / tie)) / (1 + np.exp(-slope * above))
+        steep = 0.9 / (1 + np.exp(-4.0 * (score - steep_middle)))
+        fits = (1 - 0.5 * np.exp(-max(margin, 0) / tie)) * max(1 / (1 + np.exp(-slope * above)), steep)
         assert probability(score, margin, numbers=numbers) == pytest.approx(fits)
         for excess, support in itertools.product((-2.0, 0.7, 0.9), (0.0, 0.25, 1.0)):
             energy = np.exp(excess - 3.6 - 0.233 * score)
@@ -148,17 +151,18 @@ def test_the_probability_is_that_of_the_manual(numbers: Calibration, slope: floa
 
 @CALIBRATIONS
 def test_a_verdict_is_ambiguous_where_a_rival_takes_the_word_away(
-    numbers: Calibration, slope: float, middle: float, tie: float
+    numbers: Calibration, slope: float, middle: float, steep_middle: float, tie: float
 ) -> None:
     word = partial(verdict, numbers=numbers)
-    for above, alone in ((9.0, "sure"), (1.0, "likely"), (-0.01, "unlikely")):
+    below = min(middle, steep_middle + 0.05) - middle
+    for above, alone in ((9.0, "sure"), (1.0, "likely"), (below * slope - 0.01, "unlikely")):
         score, most = middle + above / slope, numbers.max_margin
         assert word(score, most) == alone
         assert word(score, 0.0) == ("unlikely" if alone == "unlikely" else "ambiguous")
         assert word(score, most, np.exp(4 - 3.6 - 0.233 * score)) == "unlikely"
         assert word(score, most, None, 0.95) == "sure"
     # What would be sure without its rival is ambiguous, also where it is the landmarks that make it so.
-    bad = middle - 1 / slope
+    bad = min(middle, steep_middle) - 1 / slope
     enough = 1 - 0.9 * (1 - numbers.sure) / (1 - probability(bad, np.inf, numbers=numbers))
     assert probability(bad, 0.1 * tie, None, enough, numbers) < numbers.sure
     assert word(bad, 0.1 * tie, None, enough) == "ambiguous"
@@ -166,6 +170,19 @@ def test_a_verdict_is_ambiguous_where_a_rival_takes_the_word_away(
     if np.isfinite(numbers.max_margin):
         edge = middle + np.log(9.01) / slope
         assert (word(edge, numbers.max_margin), word(edge, 0.9 * numbers.max_margin)) == ("likely", "ambiguous")
+
+
+def test_the_steep_function_makes_no_map_sure() -> None:
+    """It raises what is told of maps between unlike bodies, up to "likely"; what shapes without anything in common
+    score is told as before."""
+    numbers = SCORE.calibration
+    alone = replace(numbers, steep_middle=np.inf)
+    for score in np.arange(-20.0, 0.0, 0.1):
+        told, before = probability(score, np.inf), probability(score, np.inf, numbers=alone)
+        assert told >= before
+        assert (told >= numbers.sure) == (before >= numbers.sure)
+        assert (told > before) == (-12.0 < score < -9.45) or abs(score + 12.0) < 0.3
+    assert probability(-11.5, np.inf) > 0.75 > 0.6 > probability(-11.5, np.inf, numbers=alone)
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,12 @@ class Calibration:
     slope: float = 0.92
     """Slope of the logistic function of the score."""
     middle: float = -11.8
-    """Score at which half of all maps are right; a wrong map between unlike bodies has had −9.3."""
+    """Score at which half of all maps would be right by that slope; a wrong map between unlike bodies has had −9.3."""
+    steep_slope: float = 4.0
+    """Slope of a steeper logistic function, which rises to :attr:`sure` and no further: few maps are wrong above its
+    middle, but those that are may lie anywhere."""
+    steep_middle: float = -12.0
+    """Its middle, between right maps of bodies of other species and maps of shapes that have nothing in common."""
     tie: float = 1.4
     """Margin at which the doubt cast by a different map has fallen to 1/e. A map that swaps front and back has been
     better than the right one by 2.1."""
@@ -58,13 +63,18 @@ class Calibration:
     """Probability from which a map is called "likely"."""
 
 
+def _part_calibration(slope: float, middle: float) -> Calibration:
+    """Return the calibration of parts, which have one logistic function."""
+    return Calibration(slope, middle, steep_middle=math.inf, tie=1.3, max_margin=3.0)
+
+
 @dataclass(frozen=True)
 class PartScoring:
     """Numbers that parts are scored by; see research/parts.md for the shapes that they were chosen on."""
 
-    calibration: Calibration = field(default_factory=lambda: Calibration(1 / 0.43, 16.2, tie=1.3, max_margin=3.0))
+    calibration: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2))
     """Fitted by `benchmarks/parts_verdict.py`."""
-    calibration_of_two: Calibration = field(default_factory=lambda: Calibration(1 / 2.7, 9.9, tie=1.3, max_margin=3.0))
+    calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9))
     """Of two parts, whose right placements have lower scores; fitted to the pairs of `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
@@ -446,7 +456,8 @@ def probability(
     candidate, with which it is equally likely at a margin of 0; ``deformation_energy``: lowers the probability where it
     exceeds that of right maps by far; ``support``: :func:`landmark_support`, which raises the probability.
     """
-    fits = float(expit(numbers.slope * (score - numbers.middle)))
+    steep = numbers.sure * float(expit(numbers.steep_slope * (score - numbers.steep_middle)))
+    fits = max(float(expit(numbers.slope * (score - numbers.middle))), steep)
     if deformation_energy is not None:
         excess = excess_deformation(score, deformation_energy, numbers)
         fits *= float(expit((numbers.excess_middle - excess) / numbers.excess_width))
