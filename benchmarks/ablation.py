@@ -58,7 +58,7 @@ PIECES: dict[str, list[Patch]] = {
     "repairs of the best alone": [
         (registration_refine, name, n) for name, n in (("N_REPAIRED", 1), ("N_REGISTERED", 1), ("N_MATCHES", 0))
     ],
-    "no repairs": [(search, "refine_by_registration", lambda ranked, *_: (ranked, ()))],
+    "no repairs": [(search, "refine_by_registration", lambda ranked, *_, **__: (ranked, ()))],
     "no second finish where torn": [(matching, "_retry_torn", lambda _task, _found, best: best)],
     "no exchanged limbs": [(search, "compare_exchanged", lambda best, *_, **__: [best])],
     "no guidance by extremities": [(search_result, "extremity_vertices", lambda *_: None)],

@@ -838,8 +838,8 @@ MUTANTS = tuple(
         ),
         ("(i == k) != (j == n)", "i == k and j != n", "test_alternating_registration -k heard_once"),
         (
-            "[match for match in own if match], N_MATCHES)",
-            "[], N_MATCHES)",
+            "[match for match in own if match], n_matches)",
+            "[], n_matches)",
             "test_alternating_registration -k begun_with",
         ),
         (
@@ -1036,6 +1036,9 @@ MUTANTS = tuple(
             "test_registration_evidence",
         ),
         ('settled is None or result.verdict == "sure"', "True", "test_registration_evidence -k only_refine"),
+        ("may_be_sure or len(pairs) == 0", "True", "test_registration_evidence -k only_refine"),
+        ("report, only_best=is_sure", "report, only_best=False", "test_alternating_registration -k sure_map"),
+        ("0 if only_best else N_MATCHES", "N_MATCHES", "test_alternating_registration -k sure_map"),
         ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_have_more"),
         # what is done with noise and with faces without area
         (

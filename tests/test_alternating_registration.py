@@ -35,7 +35,7 @@ from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.result_groups import MatchRegistration
-from kfmaps.matching.sample_pair import mirrored_pair, paired_map, two_level_samples
+from kfmaps.matching.sample_pair import TwoLevelSamples, mirrored_pair, paired_map, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.search_state import SearchState
@@ -220,7 +220,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(judged, 
     monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=0.01))
     monkeypatch.setattr(mending, "alternating_registration", made)
 
-    def plan(setting, near):
+    def plan(setting, near, _n_matches):
         return [*(mending.Repair(setting, c, None) for c in near), mending.Repair(setting, good, None, False)]
 
     monkeypatch.setattr(mending, "_plan_repairs", plan)
@@ -424,7 +424,7 @@ def test_a_search_tells_what_else_may_turn_out_better(judged, monkeypatch):
     back = mending.SwappedRepair(mending.Repair(setting, twin, None), (0.0, 0.0))
     monkeypatch.setattr(mending.SwappedRepair, "make", lambda _self: None)
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
-    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: (ranked, (ranked[2], twin, back)))
+    monkeypatch.setattr(choose, "refine_by_registration", lambda *_, **__: (ranked, (ranked[2], twin, back)))
     monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
     monkeypatch.setattr(search_result, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
     monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
@@ -438,6 +438,40 @@ def test_a_search_tells_what_else_may_turn_out_better(judged, monkeypatch):
         None,
     ]
     assert [choose.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
+
+
+@pytest.mark.parametrize(("told", "alone"), [("sure", True), ("likely", False)])
+def test_of_a_sure_map_nothing_else_is_repaired(judged, astray, monkeypatch, told, alone):
+    found = score_maps([Start("0", judged.C), Start("1", astray)], judged.on)
+    ranked = [replace(c, deformation_energy=1.0) for c in found]
+    state = SearchState(
+        judged.source,
+        judged.target,
+        kfmaps.Config(),
+        landmarks=NO_LANDMARKS,
+        evidence=None,
+        rejected=np.zeros(0, dtype=bool),
+        samples=TwoLevelSamples(judged.on, judged.on),
+        proxies=judged.copies,
+        candidates=found,
+        ranked=ranked,
+        orientation="preserving",
+    )
+    planned = []
+
+    def run(repairs, _progress):
+        planned.extend(repair.start.name for repair in repairs)
+        return dict(enumerate(ranked[: len(repairs)])), {}
+
+    made = choose.build_result
+    monkeypatch.setattr(choose, "build_result", lambda *of: replace(made(*of), verdict=told))
+    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
+    monkeypatch.setattr(choose, "_compare_exchanged", lambda state: state)
+    monkeypatch.setattr(mending, "SCORE", replace(SCORE, repairable_margin=np.inf))
+    monkeypatch.setattr(mending, "_run_repairs", run)
+    choose._improve_best(state, lambda *_: None)
+    assert (planned == ["0"]) == alone
+    assert {"0", "1"} <= set(planned) or alone
 
 
 def test_where_the_target_lies_leads_as_well(judged):

@@ -262,7 +262,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     """``told``: the verdict without landmarks; with "less" a map that landmarks have led to is less sure."""
     source, target, truth = creatures
     marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
-    asked, ranked = [], []
+    asked, ranked, improved = [], [], []
 
     def few(*what, **how):
         asked.append((what[3], how))
@@ -280,7 +280,8 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     monkeypatch.setattr(search, "build_result", made)
     monkeypatch.setattr(search, "candidates", few)
     monkeypatch.setattr(search, "_rank", rank)
-    monkeypatch.setattr(search, "_improve_best", lambda state, _report: (state, ()))
+    monkeypatch.setattr(search, "_improve_best", lambda state, _report: improved.append(state) or (state, ()))
+    monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=-np.inf))
     monkeypatch.setattr(search, "contradicted_landmarks", lambda _state: (np.zeros(2, dtype=bool), ()))
     monkeypatch.setattr(search, "landmark_errors", lambda *_: np.array(errors))
     result = search.search_map(source, target, kfmaps.Config(), landmarks=marks)
@@ -301,3 +302,9 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     assert asked[1][0].fine.landmark_cost is not None
     assert [c.name for c in ranked[1].candidates] == ["led", "free"]
     assert [c.landmark_errors.shape for c in ranked[1].without_landmarks] == [(2,)]
+    # What no repair could make sure is not repaired before it is searched with landmarks, but it is without any.
+    monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=np.inf))
+    for at, count in ((marks, 1), (None, 1)):
+        improved.clear()
+        search.search_map(source, target, kfmaps.Config(), landmarks=at)
+        assert len(improved) == count

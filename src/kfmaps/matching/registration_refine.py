@@ -138,8 +138,10 @@ def refine_by_registration(
     proxies: ProxyCache,
     landmarks: np.ndarray,
     progress: Progress | None = None,
+    *,
+    only_best: bool = False,
 ) -> tuple[list[Candidate], tuple[Candidate | SwappedRepair, ...]]:
-    """Repair the best candidates between unlike shapes, and rank them again.
+    """Repair the best candidates between unlike shapes, or with ``only_best`` the first alone, and rank them again.
 
     A repair registers the target onto the source; the registration on all vertices that follows a search registers the
     source onto the target, so both directions take part.
@@ -152,8 +154,8 @@ def refine_by_registration(
         return ranked, ()
     graphs = geodesic_graph(proxies.source.mesh, 1), geodesic_graph(proxies.image.mesh, 1)
     setting = RepairSetting(fine, samples, landmarks, proxies.shot_guidance, graphs)
-    near, rest = repairable(ranked, samples.source)
-    repairs = _plan_repairs(setting, near)
+    near, rest = (ranked[:1], ranked[1:]) if only_best else repairable(ranked, samples.source)
+    repairs = _plan_repairs(setting, near, 0 if only_best else N_MATCHES)
     finished, given_up = _run_repairs(repairs, progress)
     repaired = with_shot_errors([*finished.values()], setting.with_shot_error)
     # Those that were given up count as the worst in all that was not computed for them.
@@ -178,8 +180,8 @@ def repairable(ranked: list[Candidate], source: ShapeSamples) -> tuple[list[Cand
     return near, [c for c, yes in zip(ranked, is_worth, strict=True) if not yes]
 
 
-def _plan_repairs(setting: RepairSetting, near: list[Candidate]) -> list[Repair]:
-    """Return the repairs of candidates, and of maps by likely extremity matches that none of the candidates has."""
+def _plan_repairs(setting: RepairSetting, near: list[Candidate], n_matches: int) -> list[Repair]:
+    """Return the repairs of candidates, and of ``n_matches`` maps by likely extremity matches that none of them has."""
     samples = setting.samples
     shapes = samples.source, samples.target
     likely = match_extremities(*shapes, samples.descriptor_cost)
@@ -188,7 +190,7 @@ def _plan_repairs(setting: RepairSetting, near: list[Candidate]) -> list[Repair]
     repairs = [
         Repair(setting, c, match and vertices_of_match(match, *shapes)) for c, match in zip(near, own, strict=True)
     ]
-    for match in unused_matches(likely, [match for match in own if match], N_MATCHES):
+    for match in unused_matches(likely, [match for match in own if match], n_matches):
         C = paired_map(match, samples, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
         start = score_maps([Start(f"{match}", C)], samples)[0]
         repairs.append(Repair(setting, start, vertices_of_match(match, *shapes), is_candidate=False))

@@ -208,6 +208,8 @@ class Scoring:
     of different kinds −8.5 and less."""
     repair_score: float = -7.5
     """:attr:`Quality.score` below which candidates are repaired by registration."""
+    min_unrepaired_score: float = -10.0
+    """:attr:`Quality.score` below which repairs have made no map "sure": maps that became so had −9.95 and more."""
     non_isometric_score: float = -8.0
     """:attr:`Quality.score` below which the high functions of two shapes do not correspond."""
     clear_margin: float = 0.3

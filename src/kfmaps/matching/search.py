@@ -5,7 +5,8 @@ mirrored, or mirrored on half of the body. A search therefore compares many maps
 
 1. Both shapes are sampled at two levels, a few hundred points and a thousand (:mod:`~kfmaps.matching.sample_pair`).
 2. Initial maps are refined by ZoomOut on the coarse samples, and the best distinct ones on the fine samples
-   (:mod:`~kfmaps.matching.candidates`). With landmarks this is done with them and without them.
+   (:mod:`~kfmaps.matching.candidates`). With landmarks the search is made without them first; where its map is "sure"
+   and keeps to them, it is the result.
 3. The candidates are ranked by their scores (:mod:`~kfmaps.matching.score`). The first few are registered, and the
    energy of their deformation becomes part of the score (:mod:`~kfmaps.matching.ranking`).
 4. Maps to the mirror image of the target are compared with the best map where these may be better
@@ -13,8 +14,8 @@ mirrored, or mirrored on half of the body. A search therefore compares many maps
 5. Landmarks that the best map contradicts are rejected, and steps 2 to 4 are repeated without them
    (:mod:`~kfmaps.matching.landmark_conflicts`).
 6. The best map is compared with itself with two similar limbs exchanged (:mod:`~kfmaps.matching.limb_exchange`).
-7. Between unlike shapes the best candidates are registered and refined in turn, and ranked again
-   (:mod:`~kfmaps.matching.registration_refine`).
+7. Between unlike shapes the best candidates, or the best alone where it is "sure", are registered and refined in turn,
+   and ranked again (:mod:`~kfmaps.matching.registration_refine`).
 8. The best candidate becomes the result, with alternatives, margins and a verdict
    (:mod:`~kfmaps.matching.search_result`).
 
@@ -103,7 +104,9 @@ def search_map(
         )
         part = _candidates_between(report, 0.1, 0.5 if len(pairs) else 0.9)
         free = candidates(source, target, config, samples, seed, descriptors=descriptors, report=part)
-        found = _result(*_improve_best(_rank(replace(state, candidates=free)), report))
+        ranked = _rank(replace(state, candidates=free))
+        may_be_sure = ranked.ranked[0].quality.calibrated_score >= SCORE.min_unrepaired_score
+        found = _result(*(_improve_best(ranked, report) if may_be_sure or len(pairs) == 0 else (ranked, ())))
         if len(pairs) == 0:
             return found
         samples = two_level_samples(source, target, probes, pairs)
@@ -257,9 +260,11 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     state = _compare_exchanged(state)
     if state.ranked[0].quality.calibrated_score >= SCORE.repair_score:
         return state, ()
-    ranked = rerank_near_duplicates(state.ranked, state.candidates, samples, proxies)
+    # No wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
+    is_sure = _result(state, ()).verdict == "sure"
+    ranked = state.ranked if is_sure else rerank_near_duplicates(state.ranked, state.candidates, samples, proxies)
     kept = state.landmarks[~state.rejected]
-    ranked, retries = refine_by_registration(ranked, samples, proxies, kept, report)
+    ranked, retries = refine_by_registration(ranked, samples, proxies, kept, report, only_best=is_sure)
     return replace(state, ranked=ranked), retries
 
 
