@@ -1029,7 +1029,7 @@ MUTANTS = tuple(
         ('found.verdict != "sure" or ', "", "test_registration_evidence -k only_refine"),
         (" or found.orientation != state.orientation", "", "test_registration_evidence -k only_refine"),
         ("> SCORE.max_isometric_landmark_error).any()", "> 9).any()", "test_registration_evidence -k only_refine"),
-        ("not found.is_near_isometric or float(errors", "float(errors", "test_registration_evidence -k only_refine"),
+        ("is_repaired or float(errors", "float(errors", "test_registration_evidence -k only_refine"),
         (
             "float(errors.mean()) <= SCORE.max_mean_landmark",
             "9.0 <= SCORE.max_mean_landmark",

@@ -184,8 +184,8 @@ class Scoring:
     max_isometric_landmark_error: float = 0.12
     """The error to reject one between near-isometric shapes; right ones have 0.11 at most (research/landmarks.md)."""
     max_mean_landmark_error: float = 0.025
-    """Mean landmark error up to which no maps begin with landmarks between near-isometric shapes: people of one source
-    have up to 0.021, those of many sources up to 0.046 (research/landmarks.md)."""
+    """Mean landmark error up to which no maps begin with landmarks where none is repaired: people of one source have
+    up to 0.021, those of many sources up to 0.046 (research/landmarks.md)."""
     min_kept_landmarks: float = 0.6
     """Share of landmarks that a map must keep to before the others are rejected."""
     landmark_radius: float = 0.2

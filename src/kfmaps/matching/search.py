@@ -199,7 +199,7 @@ def _settled_result(found: SearchResult, state: SearchState) -> tuple[SearchResu
     """Return the result ``found`` without landmarks with those of ``state``, if it is "sure" and keeps to them all.
 
     Then they only refine it: right landmarks never make it less certain. Also return whether it keeps to them so
-    closely that maps which begin with them would be no better. Between unlike shapes none would.
+    closely that maps which begin with them would be no better. Of shapes so unlike that maps are repaired none would.
     """
     best, evidence = found._search, state.samples.fine.landmark_evidence
     if best is None or found.verdict != "sure" or found.orientation != state.orientation:
@@ -210,7 +210,8 @@ def _settled_result(found: SearchResult, state: SearchState) -> tuple[SearchResu
     if (errors > SCORE.max_isometric_landmark_error).any():
         return None, False
     marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)
-    is_close = not found.is_near_isometric or float(errors.mean()) <= SCORE.max_mean_landmark_error
+    is_repaired = found.quality is not None and found.quality < SCORE.repair_score
+    is_close = is_repaired or float(errors.mean()) <= SCORE.max_mean_landmark_error
     return _result(replace(marked, samples=state.samples), found.retries), is_close
 
 
