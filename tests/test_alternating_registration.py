@@ -463,8 +463,7 @@ def test_of_a_sure_map_nothing_else_is_repaired(judged, astray, monkeypatch, tol
         planned.extend(repair.start.name for repair in repairs)
         return dict(enumerate(ranked[: len(repairs)])), {}
 
-    made = choose.build_result
-    monkeypatch.setattr(choose, "build_result", lambda *of: replace(made(*of), verdict=told))
+    monkeypatch.setattr(choose, "verdict", lambda *_: told)
     monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
     monkeypatch.setattr(choose, "_compare_exchanged", lambda state: state)
     monkeypatch.setattr(mending, "SCORE", replace(SCORE, repairable_margin=np.inf))

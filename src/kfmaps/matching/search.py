@@ -54,8 +54,8 @@ from kfmaps.matching.quality import ShapeSamples, sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, ranking, rerank_near_duplicates, with_deformation_energy
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
 from kfmaps.matching.sample_pair import drop_landmarks, two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, deforms_too_much
-from kfmaps.matching.search_result import SearchResult, build_result
+from kfmaps.matching.score import SCORE, Candidate, deforms_too_much, verdict
+from kfmaps.matching.search_result import SearchResult, build_result, calibrated_evidence
 from kfmaps.matching.search_state import SearchState
 from kfmaps.matching.self_maps import with_self_maps
 from kfmaps.shape import Shape
@@ -105,10 +105,10 @@ def search_map(
         part = _candidates_between(report, 0.1, 0.5 if len(pairs) else 0.9)
         free = candidates(source, target, config, samples, seed, descriptors=descriptors, report=part)
         ranked = _rank(replace(state, candidates=free))
-        may_be_sure = ranked.ranked[0].quality.calibrated_score >= SCORE.min_unrepaired_score
-        found = _result(*(_improve_best(ranked, report) if may_be_sure or len(pairs) == 0 else (ranked, ())))
         if len(pairs) == 0:
-            return found
+            return _result(*_improve_best(ranked, report))
+        may_be_sure = ranked.ranked[0].quality.calibrated_score >= SCORE.min_unrepaired_score
+        found = _result(*_improve_best(ranked, report)) if may_be_sure else None
         samples = two_level_samples(source, target, probes, pairs)
         evidence, rejected = samples.fine.landmark_evidence, np.zeros(len(pairs), dtype=bool)
         state = replace(state, landmarks=pairs, evidence=evidence, rejected=rejected, samples=samples)
@@ -161,14 +161,14 @@ def _candidates_between(report: Progress, begin: float, end: float) -> Callable[
 
 def _search_with_landmarks(
     state: SearchState,
-    found: SearchResult,
+    found: SearchResult | None,
     seed: int,
     descriptors: tuple[Array, Array] | None,
     report: Progress,
 ) -> SearchResult:
     """Return the result of a search with landmarks, without those that its best map contradicts.
 
-    ``state``: before the search, with the landmarks; ``found``: the result of the search without them.
+    ``state``: before the search, with the landmarks; ``found``: the result without them, if it may be sure.
     """
 
     def rank(state: SearchState) -> SearchState:
@@ -195,14 +195,14 @@ def _search_with_landmarks(
     return result if settled is None or result.verdict == "sure" else settled
 
 
-def _settled_result(found: SearchResult, state: SearchState) -> tuple[SearchResult | None, bool]:
+def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[SearchResult | None, bool]:
     """Return the result ``found`` without landmarks with those of ``state``, if it is "sure" and keeps to them all.
 
     Then they only refine it: right landmarks never make it less certain. Also return whether it keeps to them so
     closely that maps which begin with them would be no better. Of shapes so unlike that maps are repaired none would.
     """
-    best, evidence = found._search, state.samples.fine.landmark_evidence
-    if best is None or found.verdict != "sure" or found.orientation != state.orientation:
+    best, evidence = found and found._search, state.samples.fine.landmark_evidence
+    if found is None or best is None or found.verdict != "sure" or found.orientation != state.orientation:
         return None, False
     errors = np.zeros(1)
     if evidence is not None:
@@ -262,7 +262,7 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     if state.ranked[0].quality.calibrated_score >= SCORE.repair_score:
         return state, ()
     # No wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
-    is_sure = _result(state, ()).verdict == "sure"
+    is_sure = verdict(*calibrated_evidence(state, state.ranked[0], state.ranked[1:])) == "sure"
     ranked = state.ranked if is_sure else rerank_near_duplicates(state.ranked, state.candidates, samples, proxies)
     kept = state.landmarks[~state.rejected]
     ranked, retries = refine_by_registration(ranked, samples, proxies, kept, report, only_best=is_sure)

@@ -64,15 +64,10 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
     config, samples = state.config, state.samples.fine
     assert config.search is not None
-    doubts = [(c, margin) for c, margin in state.doubts if margin < SCORE.shot_margin]
-    margins = [*(margin for _, margin in doubts), *(_margin(best, other) for other in rest)]
-    if not samples.are_surfaces and (~state.rejected).sum() < 3:
-        margins.append(0.0)  # nothing tells the map from its mirror image
+    doubts = _close_doubts(state)
     alternatives = [*(c for c, _ in doubts), *rest][: config.search.n_alternatives]
     scores = [best.score, *(best.score - margin for _, margin in doubts), *(c.score for c in rest)]
-    margin = max(min(margins, default=np.inf), 0.0)
-    quality = best.quality.calibrated_score
-    evidence = quality, margin, best.deformation_energy, support_of_landmarks(best, samples)
+    evidence, quality = calibrated_evidence(state, best, rest), best.quality.calibrated_score
     rejected = state.rejected & (state.rejected.all() | still_contradicted(best, samples, state.evidence))
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in alternatives]
     unlike = not is_near_isometric(quality)
@@ -95,6 +90,25 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
         swapped=best.swapped,
         _search=state,
     )
+
+
+def calibrated_evidence(
+    state: SearchState, best: Candidate, rest: list[Candidate]
+) -> tuple[float, float, float | None, float]:
+    """Return what :func:`kfmaps.matching.score.probability` and ``verdict`` take of ``best``, in their order.
+
+    ``rest``: its alternatives.
+    """
+    margins = [*(margin for _, margin in _close_doubts(state)), *(_margin(best, other) for other in rest)]
+    if not state.samples.fine.are_surfaces and (~state.rejected).sum() < 3:
+        margins.append(0.0)  # nothing tells the map from its mirror image
+    margin, support = max(min(margins, default=np.inf), 0.0), support_of_landmarks(best, state.samples.fine)
+    return best.quality.calibrated_score, margin, best.deformation_energy, support
+
+
+def _close_doubts(state: SearchState) -> list[tuple[Candidate, float]]:
+    """Return the maps that cast a doubt with a small margin, with it."""
+    return [(c, margin) for c, margin in state.doubts if margin < SCORE.shot_margin]
 
 
 def _margin(best: Candidate, other: Candidate) -> float:
