@@ -397,6 +397,27 @@ def test_the_match_that_is_worth_more_is_taken(judged):
     assert better_match(known, replace(refused, registration=MatchRegistration())) is known
 
 
+def test_the_energy_of_the_registration_takes_the_place_of_that_of_the_proxies(judged):
+    one = finish.match_from_map(judged.source, judged.target, finish.KnownMap(judged.truth, "a", quality=-9.0))
+    torn = finish.torn_area_fraction(one) * SCORE.w_torn
+
+    def made(score, proxies, own):
+        report = replace(one.registration.report, deformation_energy=own)
+        marked = replace(one.score, scores=(score,), deformation_energy=proxies)
+        return replace(one, score=marked, registration=replace(one.registration, report=report))
+
+    usual = made(-9.0, 0.4, 0.4)
+    assert finish.registered_score(usual) == pytest.approx(-9.0 - torn)
+    gain = SCORE.w_deformation * np.log(2.0)
+    assert finish.registered_score(made(-9.0, 0.4, 0.2)) == pytest.approx(-9.0 - torn + gain)
+    assert finish.registered_score(made(-9.0, 0.2, 0.4)) == pytest.approx(-9.0 - torn - gain)
+    assert finish.registered_score(made(-9.0, 0.02, 0.0)) == pytest.approx(-9.0 - torn + gain)
+    assert finish.registered_score(made(-9.0, None, 0.2)) == pytest.approx(-9.0 - torn)
+    bends_less = made(-9.0 - 0.9 * gain, 0.4, 0.2)
+    assert better_match(usual, bends_less) is not usual
+    assert better_match(usual, made(-9.0 - 1.1 * gain, 0.4, 0.2)) is usual
+
+
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(judged, monkeypatch):
     source, target = judged.source, judged.target
     other = SearchResult(judged.C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))

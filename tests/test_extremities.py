@@ -33,7 +33,7 @@ from kfmaps.matching.sample_pair import paired_map, two_level_samples
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import find_self_maps
 from kfmaps.registration.alternating_registration import proxy_pair
-from kfmaps.registration.evidence import _MAX_ENERGY, _MIN_ENERGY, PATIENT, coarse_copy, deform
+from kfmaps.registration.evidence import _MAX_ENERGY, MIN_ENERGY, PATIENT, coarse_copy, deform
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
 
@@ -211,8 +211,8 @@ def test_each_map_may_have_evidence_of_its_own(on):
 def test_a_shape_bends_least_onto_itself(itself):
     """Strain is of all places and not of the worst: the mean of logarithms is below the logarithm of the mean."""
     kept, torn = (deform(C, itself) for C in (np.eye(40), SIGNS))
-    assert kept.energy == _MIN_ENERGY < 0.05 < torn.energy <= _MAX_ENERGY
-    assert kept.strain == pytest.approx(np.log(_MIN_ENERGY), abs=1e-6)
+    assert kept.energy == MIN_ENERGY < 0.05 < torn.energy <= _MAX_ENERGY
+    assert kept.strain == pytest.approx(np.log(MIN_ENERGY), abs=1e-6)
     assert kept.strain < torn.strain < np.log(torn.energy)
 
 

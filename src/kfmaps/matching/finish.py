@@ -26,9 +26,10 @@ from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, torn_score
+from kfmaps.matching.score import SCORE, deformation_cost, lower_by_torn_area, max_landmark_error, torn_score
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.accept import register_map
+from kfmaps.registration.evidence import MIN_ENERGY
 from kfmaps.shape import Shape, check_prepared, mirror_image
 
 UNLIKE_FUNCTIONS = 100
@@ -279,19 +280,30 @@ def match_from_map(
 
 
 def better_match(one: Match, other: Match) -> Match:
-    """Return the match with the better :func:`final_score`, with the seconds of ``one``; ``one`` if it is unknown.
+    """Return the match with the better :func:`registered_score`, with the seconds of ``one``; ``one`` if it is unknown.
 
     Between unlike shapes distances nearby change everywhere. After registration they change much only where a limb is
     torn or mapped elsewhere, which the score of a search does not show as well.
     """
-    if torn_area_fraction(one) is None or torn_area_fraction(other) is None or final_score(other) <= final_score(one):
-        return one
-    return replace(other, seconds=one.seconds)
+    known = torn_area_fraction(one) is not None and torn_area_fraction(other) is not None
+    return replace(other, seconds=one.seconds) if known and registered_score(other) > registered_score(one) else one
 
 
 def final_score(match: Match) -> float:
     """Return the score of the match of a search, less the cost of its torn area."""
     return torn_score(match.score.scores[0], torn_area_fraction(match))
+
+
+def registered_score(match: Match) -> float:
+    """Return :func:`final_score` with the deformation energy of the match's own registration instead of the proxies'.
+
+    A right map of a body with glued parts is torn where these meet, but bends the shape little.
+    """
+    energy, report = match.score.deformation_energy, match.registration.report
+    if energy is None or report is None:
+        return final_score(match)
+    own = max(report.deformation_energy, MIN_ENERGY)
+    return final_score(match) + deformation_cost(energy) - deformation_cost(own)
 
 
 def torn_area_fraction(match: Match) -> float | None:

@@ -362,13 +362,18 @@ def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
     """
     deformation = 0.0
     if candidate.deformation_energy is not None:
-        deformation = -numbers.w_deformation * math.log(candidate.deformation_energy / numbers.usual_deformation)
+        deformation = -deformation_cost(candidate.deformation_energy, numbers)
     strain = -numbers.w_strain * (candidate.strain or 0.0)
     shot = -numbers.w_shot * (candidate.shot_error or 0.0)
     extremities = numbers.w_extremities * candidate.quality.extremity_descriptor_error
     evidence = quality_score(candidate.quality, numbers) - extremities + deformation + strain + shot
     missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
     return round(evidence - numbers.w_landmark * missed, 9)
+
+
+def deformation_cost(energy: float, numbers: Scoring = SCORE) -> float:
+    """Return the cost of a deformation energy in the score of a candidate; negative below the usual energy."""
+    return numbers.w_deformation * math.log(energy / numbers.usual_deformation)
 
 
 def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) -> float:

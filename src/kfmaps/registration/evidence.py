@@ -30,7 +30,7 @@ FINE_VERTICES = 3000
 """Vertices of the finer proxies on which two maps of similar scores are compared."""
 _QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
 """The registrations of all candidates, and of those with similar scores."""
-_MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
+MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
 """Energies are clipped to these: below, two meshes of one shape differ; above, nothing is left of the shape."""
 
 
@@ -107,8 +107,8 @@ def _deform_one(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> Deformatio
     # Local energies are at least 1e-3.
     local = np.log(np.maximum(arap_energy_per_vertex(energy, x) / areas, 1e-3))
     total = arap_energy(energy, x) / float(pair.body.areas.sum())
-    strain = max(float(np.average(local, weights=areas)), math.log(_MIN_ENERGY))
-    return DeformationEnergy(min(max(total, _MIN_ENERGY), _MAX_ENERGY), strain)
+    strain = max(float(np.average(local, weights=areas)), math.log(MIN_ENERGY))
+    return DeformationEnergy(min(max(total, MIN_ENERGY), _MAX_ENERGY), strain)
 
 
 def _registered_shot_error(pair: MeshPair, points: np.ndarray) -> float | None:
