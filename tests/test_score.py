@@ -143,7 +143,7 @@ def test_the_probability_is_that_of_the_manual(
         for excess, support in itertools.product((-2.0, 0.7, 0.9), (0.0, 0.25, 1.0)):
             energy = np.exp(excess - 3.6 - 0.233 * score)
             if energy > 0:
-                alone = fits / (1 + np.exp(12.5 * (excess - 0.75)))
+                alone = fits / (1 + np.exp(20 * (excess - 0.78)))
                 found = probability(score, margin, energy, support, numbers)
                 assert found == pytest.approx(1 - (1 - support) * (1 - alone))
     assert probability(-1e5, 0.0, numbers=numbers) == pytest.approx(0)

@@ -52,10 +52,10 @@ class Calibration:
     """Logarithm of the deformation energy of right maps at a score of 0."""
     log_deformation_per_score: float = -0.233
     """Change of that logarithm with the score."""
-    excess_middle: float = 0.75
-    """Excess of the logarithm at which half of all maps are wrong: right near-isometric maps reach 0.62, maps of bodies
-    to their mirror images begin at 0.9."""
-    excess_width: float = 0.08
+    excess_middle: float = 0.78
+    """Excess of the logarithm at which half of all maps are wrong: right maps reach 0.73, maps of bodies to their mirror
+    images begin at 0.9."""
+    excess_width: float = 0.05
     """Width of that logistic function."""
     sure: float = 0.9
     """Probability from which a map is called "sure"; wrong ones have had up to 0.899."""
