@@ -335,14 +335,24 @@ def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(
     assert last.score.rejected_landmarks.tolist() == [1]
 
 
-@pytest.mark.parametrize(("ahead", "outcome"), [(1.1, "left out"), (0.9, "doubt"), (-0.9, "doubt"), (-1.1, "none")])
-def test_a_sure_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
-    monkeypatch: pytest.MonkeyPatch, ahead: float, outcome: str
+@pytest.mark.parametrize(
+    ("ahead", "quality", "outcome"),
+    [
+        (1.1, -1.0, "left out"),
+        (1.1, -10.0, "left out"),
+        (1.1, -13.0, "none"),
+        (0.9, -1.0, "doubt"),
+        (-0.9, -1.0, "doubt"),
+        (-1.1, -1.0, "none"),
+    ],
+)
+def test_a_likely_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
+    monkeypatch: pytest.MonkeyPatch, ahead: float, quality: float, outcome: str
 ) -> None:
     """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""
     best, first, second = (
         SimpleNamespace(
-            score=score, quality=SimpleNamespace(calibrated_score=-1.0), deformation_energy=None, missed=missed
+            score=score, quality=SimpleNamespace(calibrated_score=quality), deformation_energy=None, missed=missed
         )
         for score, missed in ((0.0, [0.0, 0.02]), (ahead, [0.5, 0.4]), (-20.0, [0.5, 0.4]))
     )

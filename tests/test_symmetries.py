@@ -193,6 +193,9 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(symmetric, unmarked, m
     assert error(chosen.ranked[0]) < 0.05
     monkeypatch.setattr(orientation, "compose_with_symmetries", lambda *_: [])
     assert orientation.choose_orientation(blind, deforms_too_much=True).orientation == "reversing"
+    led = orientation.choose_orientation(replace(blind, may_reverse=False), deforms_too_much=True)
+    assert led.orientation == "preserving"
+    assert [one.name for one, margin in led.doubts if margin < 0.0] == ["image"]
 
 
 ARMS = 5

@@ -30,8 +30,8 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     """Return the landmarks (l,) bool to reject, and a map that casts a doubt on the others with the margin over it.
 
     The best map contradicts some while it keeps to most of the others. A map that was found without landmarks and would
-    be called "sure" contradicts any number, unless a map that keeps to them fits the surfaces nearly as well: then none
-    is rejected for it, and neither map is sure.
+    be called "sure" or "likely" contradicts any number, unless a map that keeps to them fits the surfaces nearly as
+    well: then none is rejected for it, and neither map is sure.
     """
     best, samples = state.ranked[0], state.samples.fine
     errors = ignore_landmarks(best, samples).landmark_errors
@@ -44,7 +44,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
         return rejected, ()
     order = rank_by_surface(state)
     free, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
-    if verdict(free.quality.calibrated_score, margin, free.deformation_energy) != "sure":
+    if verdict(free.quality.calibrated_score, margin, free.deformation_energy) not in ("sure", "likely"):
         return rejected, ()
     contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
     if 2 * contradicted.sum() > len(contradicted):

@@ -49,7 +49,7 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             gain = _gain(image, state, is_auto)
     is_congruent = energy is not None and energy < SCORE.congruent_energy
     margin = SCORE.mirror_gain if is_congruent else SCORE.mirror_margin
-    if gain > (margin if is_auto else SCORE.clear_margin):
+    if gain > (margin if is_auto else SCORE.clear_margin) and (state.may_reverse or not is_auto):
         samples = replace(samples, fine=mirrored)
         return replace(
             state, samples=samples, proxies=proxies, candidates=images, ranked=ranked, orientation="reversing"

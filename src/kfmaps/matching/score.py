@@ -53,8 +53,8 @@ class Calibration:
     log_deformation_per_score: float = -0.233
     """Change of that logarithm with the score."""
     excess_middle: float = 0.78
-    """Excess of the logarithm at which half of all maps are wrong: right maps reach 0.73, maps of bodies to their mirror
-    images begin at 0.9."""
+    """Excess of the logarithm at which half of all maps are wrong: right maps have up to 0.73, those of bodies to their
+    mirror images begin at 0.9."""
     excess_width: float = 0.05
     """Width of that logistic function."""
     sure: float = 0.9

@@ -110,9 +110,16 @@ def search_map(
         may_be_sure = ranked.ranked[0].quality.calibrated_score >= SCORE.min_unrepaired_score
         found = _result(*_improve_best(ranked, report)) if may_be_sure else None
         samples = two_level_samples(source, target, probes, pairs)
-        evidence, rejected = samples.fine.landmark_evidence, np.zeros(len(pairs), dtype=bool)
-        state = replace(state, landmarks=pairs, evidence=evidence, rejected=rejected, samples=samples)
-        return _search_with_landmarks(replace(state, without_landmarks=free), found, seed, descriptors, report)
+        state = replace(
+            state,
+            landmarks=pairs,
+            evidence=samples.fine.landmark_evidence,
+            rejected=np.zeros(len(pairs), dtype=bool),
+            samples=samples,
+            without_landmarks=free,
+            may_reverse=ranked.orientation == "reversing",
+        )
+        return _search_with_landmarks(state, found, seed, descriptors, report)
 
 
 def retry(result: SearchResult, number: int, least: float) -> SearchResult | None:
@@ -200,9 +207,12 @@ def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[Sea
 
     Then they only refine it: right landmarks never make it less certain. Also return whether it keeps to them so
     closely that maps which begin with them would be no better. Of shapes so unlike that maps are repaired none would.
+    Where all landmarks are rejected it is the result whatever its verdict.
     """
     best, evidence = found and found._search, state.samples.fine.landmark_evidence
-    if found is None or best is None or found.verdict != "sure" or found.orientation != state.orientation:
+    if found is None or best is None or found.orientation != state.orientation:
+        return None, False
+    if found.verdict != "sure" and not state.rejected.all():
         return None, False
     errors = np.zeros(1)
     if evidence is not None:

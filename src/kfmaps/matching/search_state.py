@@ -33,3 +33,6 @@ class SearchState:
     # exchanged, one that contradicts the landmarks.
     doubts: tuple[tuple[Candidate, float], ...] = ()
     without_landmarks: list[Candidate] = field(default_factory=list)  # candidates that landmarks took no part in
+    # Whether a map to the mirror image may come first with the setting "auto": with landmarks only where one does
+    # without them. Landmarks with left and right exchanged agree with one of any body that is nearly its own image.
+    may_reverse: bool = True
