@@ -349,8 +349,8 @@ MUTANTS = tuple(
             "test_extremities -k evidence",
         ),
         (
-            "deformation = -numbers.w_deformation",
-            "deformation = numbers.w_deformation",
+            "deformation = -deformation_cost(",
+            "deformation = deformation_cost(",
             "test_score",
         ),
         (
@@ -774,9 +774,9 @@ MUTANTS = tuple(
             "test_local_scaling -k exactly",
         ),
         (
-            "return min(gain, without_landmark_errors(image).score",
-            "return max(gain, without_landmark_errors(image).score",
-            "test_landmark_evidence -k left_for_right",
+            " and (state.may_reverse or not is_auto)",
+            "",
+            "test_symmetries -k mirror_image",
         ),
         (
             "return bool(np.median(errors) > 0.04)",
@@ -1026,7 +1026,9 @@ MUTANTS = tuple(
         ("< numbers.early_exit_agreement", "< 0.0", "test_parts_alternatives -k search_ends"),
         ("return best if is_clear or best.verdict", "return best if best.verdict", "test_parts -k may_be_a_whole"),
         # where landmarks begin no maps
-        ('found.verdict != "sure" or ', "", "test_registration_evidence -k only_refine"),
+        ('found.verdict != "sure" and not', "not", "test_registration_evidence -k only_refine"),
+        ('not in ("sure", "likely")', '!= "sure"', "test_landmark_evidence -k leaves_them_out"),
+        ("+ deformation_cost(energy) -", "-", "test_alternating_registration -k takes_the_place"),
         (" or found.orientation != state.orientation", "", "test_registration_evidence -k only_refine"),
         ("> SCORE.max_isometric_landmark_error).any()", "> 9).any()", "test_registration_evidence -k only_refine"),
         ("is_repaired or float(errors", "float(errors", "test_registration_evidence -k only_refine"),
