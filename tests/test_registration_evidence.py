@@ -308,3 +308,27 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         improved.clear()
         search.search_map(source, target, kfmaps.Config(), landmarks=at)
         assert len(improved) == count
+
+
+@pytest.mark.parametrize("rejects", [[True, True], [True, False]])
+def test_a_likely_map_that_rejects_all_landmarks_is_not_sought_again(monkeypatch, creatures, rejects):
+    source, target, truth = creatures
+    marks, ranked = np.stack([truth[[5, 700]], [5, 700]], axis=1), []
+
+    def made(state, best, rest):
+        return replace(build_result(state, best, rest), verdict="likely", quality=-4.0)
+
+    def few(*what, **_how):
+        return score_maps([Start("any", np.eye(40))], what[3].fine)
+
+    monkeypatch.setattr(search, "build_result", made)
+    monkeypatch.setattr(search, "candidates", few)
+    monkeypatch.setattr(search, "_rank", lambda state: ranked.append(state) or replace(state, ranked=state.candidates))
+    monkeypatch.setattr(search, "_improve_best", lambda state, _report: (state, ()))
+    monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=-np.inf))
+    monkeypatch.setattr(search, "contradicted_landmarks", lambda _state: (np.array(rejects), ()))
+    result = search.search_map(source, target, kfmaps.Config(), landmarks=marks)
+    assert len(ranked) == (2 if all(rejects) else 3)
+    assert len(result.landmarks) <= 2
+    assert result._search is not None
+    np.testing.assert_array_equal(result._search.rejected, rejects)
