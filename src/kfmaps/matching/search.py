@@ -54,7 +54,7 @@ from kfmaps.matching.quality import ShapeSamples, sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, ranking, rerank_near_duplicates, with_deformation_energy
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
 from kfmaps.matching.sample_pair import drop_landmarks, two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, deforms_too_much, verdict
+from kfmaps.matching.score import SCORE, Candidate, deforms_too_much, max_landmark_error, verdict
 from kfmaps.matching.search_result import SearchResult, build_result, calibrated_evidence
 from kfmaps.matching.search_state import SearchState
 from kfmaps.matching.self_maps import with_self_maps
@@ -210,18 +210,18 @@ def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[Sea
     Where all landmarks are rejected it is the result whatever its verdict.
     """
     best, evidence = found and found._search, state.samples.fine.landmark_evidence
-    if found is None or best is None or found.orientation != state.orientation:
+    if found is None or best is None or found.quality is None or found.orientation != state.orientation:
         return None, False
     if found.verdict != "sure" and not state.rejected.all():
         return None, False
     errors = np.zeros(1)
     if evidence is not None:
         errors = landmark_errors(found.functional_map, state.samples.fine.source.samples.basis.functions, evidence)
-    if (errors > SCORE.max_isometric_landmark_error).any():
+    if (errors > max_landmark_error(found.quality)).any():
         return None, False
     marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)
-    is_repaired = found.quality is not None and found.quality < SCORE.repair_score
-    is_close = is_repaired or float(errors.mean()) <= SCORE.max_mean_landmark_error
+    is_close = found.quality < SCORE.repair_score or float(errors.mean()) <= SCORE.max_mean_landmark_error
+    is_close = is_close and float(errors.max()) <= SCORE.max_isometric_landmark_error
     return _result(replace(marked, samples=state.samples), found.retries), is_close
 
 
