@@ -1034,8 +1034,9 @@ MUTANTS = tuple(
         ),
         ("+ deformation_cost(energy) -", "-", "test_alternating_registration -k takes_the_place"),
         (" or found.orientation != state.orientation", "", "test_registration_evidence -k only_refine"),
-        ("> SCORE.max_isometric_landmark_error).any()", "> 9).any()", "test_registration_evidence -k only_refine"),
-        ("is_repaired or float(errors", "float(errors", "test_registration_evidence -k only_refine"),
+        ("> max_landmark_error(found.quality)).any()", "> 9).any()", "test_registration_evidence -k only_refine"),
+        ("found.quality < SCORE.repair_score or float(", "float(", "test_registration_evidence -k only_refine"),
+        ("<= SCORE.max_isometric_landmark_error", "<= 9.0", "test_registration_evidence -k only_refine"),
         (
             "float(errors.mean()) <= SCORE.max_mean_landmark",
             "9.0 <= SCORE.max_mean_landmark",
