@@ -399,10 +399,11 @@ def test_the_match_that_is_worth_more_is_taken(judged):
 
 def test_the_energy_of_the_registration_takes_the_place_of_that_of_the_proxies(judged):
     one = finish.match_from_map(judged.source, judged.target, finish.KnownMap(judged.truth, "a", quality=-9.0))
-    torn = finish.torn_area_fraction(one) * SCORE.w_torn
+    torn, own_report = (finish.torn_area_fraction(one) or 0.0) * SCORE.w_torn, one.registration.report
+    assert own_report is not None
 
     def made(score, proxies, own):
-        report = replace(one.registration.report, deformation_energy=own)
+        report = replace(own_report, deformation_energy=own)
         marked = replace(one.score, scores=(score,), deformation_energy=proxies)
         return replace(one, score=marked, registration=replace(one.registration, report=report))
 
