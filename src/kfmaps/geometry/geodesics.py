@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from kfmaps._arrays import blocks, check_count, refuse
+from kfmaps._arrays import check_count, refuse
 from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, check_is_mesh
@@ -109,9 +109,15 @@ def shortest_paths(graph: csr_array, a: np.ndarray, b: np.ndarray, straight: np.
     mean_edge = graph.data.mean() if graph.nnz else 0.0
     limits = 1.3 * straight + mean_edge
     for attempt in range(4):
-        remaining = remaining[np.argsort(limits[remaining], kind="stable")]
-        for part in blocks(len(remaining), 64):  # which bounds the memory
-            rows = remaining[part]
+        if len(remaining) == 0:
+            break
+        # One search from a node serves all of its pairs; nodes with like limits are searched from together.
+        _, node = np.unique(a[remaining], return_inverse=True)
+        reach = np.zeros(node.max() + 1)
+        np.maximum.at(reach, node, limits[remaining])
+        remaining = remaining[np.lexsort((node, reach[node]))]
+        next_node = np.flatnonzero(np.diff(a[remaining])) + 1
+        for rows in np.split(remaining, next_node[63::64]):  # 64 nodes each, which bounds the memory
             sources, row = np.unique(a[rows], return_inverse=True)
             limit = limits[rows].max() if attempt < 3 else np.inf
             result[rows] = dijkstra(graph, indices=sources, limit=limit)[row, b[rows]]
