@@ -774,6 +774,11 @@ MUTANTS = tuple(
             "test_local_scaling -k exactly",
         ),
         (
+            "return min(gain, without_landmark_errors(image).score",
+            "return max(gain, without_landmark_errors(image).score",
+            "test_landmark_evidence -k left_for_right",
+        ),
+        (
             " and (state.may_reverse or not is_auto)",
             "",
             "test_symmetries -k mirror_image",

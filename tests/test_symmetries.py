@@ -198,6 +198,24 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(symmetric, unmarked, m
     assert [one.name for one, margin in led.doubts if margin < 0.0] == ["image"]
 
 
+def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, monkeypatch):
+    """With left and right exchanged they agree with one, which fits the surfaces less well."""
+    state: Any = unmarked._search
+    best, missed = state.ranked[0], np.full(10, SCORE.max_landmark_error)
+    worse = replace(best.quality, distortion=best.quality.distortion + 1.0)
+    image = replace(best, name="image", quality=worse, landmark_errors=np.zeros(10))
+    free = [replace(one, landmark_errors=missed) for one in state.ranked]
+    marks = np.zeros((10, 2), dtype=np.int64)
+    led = replace(state, landmarks=marks, candidates=free, ranked=free, without_landmarks=free, doubts=())
+    assert image.score > free[0].score + SCORE.mirror_margin
+    monkeypatch.setattr(orientation, "mirror_candidates", lambda *_: [image])
+    monkeypatch.setattr(orientation, "ranking", lambda found, *_: found)
+    for may_reverse in (False, True):
+        chosen = orientation.choose_orientation(replace(led, may_reverse=may_reverse), deforms_too_much=True)
+        assert (chosen.orientation, chosen.doubts) == ("preserving", ())
+        assert chosen.candidates is free
+
+
 ARMS = 5
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kfmaps.matching.candidates import by_score, compose_with_symmetries, rerefine, score_maps
+from kfmaps.matching.landmark_conflicts import rank_by_surface, without_landmark_errors
 from kfmaps.matching.ranking import ProxyCache, ranking
 from kfmaps.matching.sample_pair import SamplePair, mirrored_pair
 from kfmaps.matching.score import SCORE, Candidate
@@ -37,7 +38,7 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     # Registration with more points raises no score by more than the margin.
     ranked = ranking(images, mirrored, proxies, state.ranked[0].score - SCORE.close_margin)
     image, energy = ranked[0], ranked[0].deformation_energy
-    gain = image.score - state.ranked[0].score
+    gain = _gain(image, state, is_auto)
     if is_auto and gain > SCORE.mirror_gain:
         # A body that is nearly its own mirror image has a map that preserves orientation and is as good.
         composed = compose_with_symmetries(image, samples)
@@ -46,7 +47,7 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             free = [*state.without_landmarks, *composed] if state.without_landmarks else []
             preserving = ranking(found, samples.fine, state.proxies)
             state = replace(state, candidates=found, without_landmarks=free, ranked=preserving)
-            gain = image.score - preserving[0].score
+            gain = _gain(image, state, is_auto)
     is_congruent = energy is not None and energy < SCORE.congruent_energy
     margin = SCORE.mirror_gain if is_congruent else SCORE.mirror_margin
     if gain > (margin if is_auto else SCORE.clear_margin) and (state.may_reverse or not is_auto):
@@ -55,6 +56,19 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             state, samples=samples, proxies=proxies, candidates=images, ranked=ranked, orientation="reversing"
         )
     return replace(state, doubts=((image, -gain),)) if is_auto and gain > SCORE.mirror_gain else state
+
+
+def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:
+    """Return by how much the score of a map to the mirror image exceeds that of the best map.
+
+    With landmarks and the setting "auto" it must exceed it without them too: landmarks with left and right exchanged
+    agree with the mirror image of any body that is nearly its own mirror image.
+    """
+    gain = image.score - state.ranked[0].score
+    if not is_auto or not len(state.landmarks):
+        return gain
+    best = rank_by_surface(state)[0]
+    return min(gain, without_landmark_errors(image).score - without_landmark_errors(best).score)
 
 
 def mirror_candidates(found: list[Candidate], mirrored: SamplePair) -> list[Candidate]:
