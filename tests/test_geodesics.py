@@ -161,6 +161,22 @@ def test_far_pairs_are_found_too() -> None:
     np.testing.assert_array_equal(geodesic_distance_pairs(mesh, a, b), geodesic_distances(mesh, a)[np.arange(width), b])
 
 
+def test_one_search_from_a_vertex_serves_all_of_its_pairs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a sheet, whose distances are straight, the first round finds all near and far pairs of 100 vertices."""
+    mesh, searched = sheet(np.arange(12.0), np.arange(12.0)), []
+
+    def counted(graph, indices, limit):
+        searched.append(len(indices))
+        return dijkstra(graph, indices=indices, limit=limit)
+
+    a = np.repeat(np.arange(100), 3)
+    b = a + np.tile([1, 13, 40], 100)
+    exact = geodesic_distances(mesh, a)[np.arange(300), b]
+    monkeypatch.setattr(geodesics, "dijkstra", counted)
+    np.testing.assert_array_equal(geodesic_distance_pairs(mesh, a, b), exact)
+    assert searched == [64, 36]
+
+
 def test_clouds() -> None:
     mesh = fibonacci_sphere(1000)
     cloud = cloud_of(mesh)

@@ -198,7 +198,7 @@ def _retry_torn(task: MatchTask, found: SearchResult, best: Match) -> Match:
         if (torn_area_fraction(best) or 0.0) <= SCORE.max_torn_area:
             break
         with task.clock(f"another way, {i + 1}"):
-            # A candidate whose score is not above that of the match is no better even if none of its area is torn.
+            # A candidate that would have to bend less too to become the better match is not worth its time.
             other = retry(found, i, final_score(best))
             if other is not None:
                 retried = replace(task, clock=StageTimer(task.clock.report))
