@@ -699,8 +699,8 @@ MUTANTS = tuple(
             "test_registration_evidence -k looks_decide",
         ),
         (
-            "order[0].score - order[1].score < SCORE.shot_margin",
-            "order[0].score - order[1].score < 0",
+            "1 and order[0].score - order[1].score < SCORE.shot_margin",
+            "1 and order[0].score - order[1].score < 0",
             "test_registration_evidence -k asked_for",
         ),
         (
@@ -837,9 +837,19 @@ MUTANTS = tuple(
             "test_alternating_registration -k registered_on_proxies",
         ),
         (
-            "_repair_best(state) if too_much else state",
-            "state",
+            "ranked=[_repaired(ranked[0], state), *ranked[1:]])",
+            "ranked=ranked)",
             "test_alternating_registration -k much_is_repaired",
+        ),
+        (
+            "_repaired(c, state) if is_close_but_deformed(c, best) else c",
+            "c",
+            "test_alternating_registration -k turned_limb",
+        ),
+        (
+            "if order[0].score - order[1].score < SCORE.shot_margin:\n        order = rerank_close",
+            "if order[0].score - order[1].score > SCORE.shot_margin:\n        order = rerank_close",
+            "test_alternating_registration -k turned_limb",
         ),
         ("(i == k) != (j == n)", "i == k and j != n", "test_alternating_registration -k heard_once"),
         (

@@ -36,7 +36,7 @@ from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.result_groups import MatchRegistration
 from kfmaps.matching.sample_pair import TwoLevelSamples, mirrored_pair, paired_map, two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much
+from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much, is_close_but_deformed
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.search_state import SearchState
 from kfmaps.registration import alternating_registration as alternate
@@ -548,11 +548,15 @@ def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_ima
     torn_first = SearchState(
         source, target, config, NO_LANDMARKS, None, wrong, judged.samples, copies, found, found, "preserving"
     )
-    state: Any = choose._repair_best(torn_first)
-    best, second = state.ranked
+    best: Any = choose._repaired(found[0], torn_first)
     assert best.score > found[0].score
     assert best.deformation_energy < found[0].deformation_energy
-    assert second is found[1]
+    told = []
+    monkeypatch.setattr(choose, "build_guidance", lambda *what, **_shot: told.append(what[2]))
+    pairs = np.array([[3, 5], [8, 2]])
+    choose._repaired(found[0], replace(torn_first, landmarks=pairs, rejected=np.array([True, False])))
+    np.testing.assert_array_equal(told[0], pairs[1:], err_msg="rejected landmarks take no part")
+    monkeypatch.undo()
     compared = []
     monkeypatch.setattr(choose, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)
     for too_much in (False, True):
@@ -561,6 +565,52 @@ def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_ima
         assert (ranked[0].score > found[0].score) == too_much
     assert compared == [False, True]
     monkeypatch.setattr(choose, "register_map_on_proxies", lambda *_what: iter([None]))
-    assert choose._repair_best(torn_first) is torn_first
+    assert choose._repaired(found[0], torn_first) is found[0]
     flat = replace(torn_first, proxies=ProxyCache(source, target, (None, None)))
-    assert choose._repair_best(flat) is flat
+    assert choose._repaired(found[0], flat) is found[0]
+
+
+def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(judged, monkeypatch):
+    """It is ranked again with its new score; a rival that is worse in more than its deformation stays as it is."""
+    found: Any = ranking.with_deformation_energy(score_maps([Start("right", judged.C)], judged.on), judged.copies)
+    best: Any = found[0]
+    energy, away = best.deformation_energy, (best.points + len(best.points) // 2) % len(best.points)
+    deformed = replace(best, name="deformed", points=away, deformation_energy=2 * energy)
+    worse = replace(deformed, name="worse", quality=replace(best.quality, descriptors=best.quality.descriptors + 0.1))
+    mended = replace(deformed, name="mended", deformation_energy=1.5 * energy)
+    assert is_close_but_deformed(deformed, best)
+    assert not is_close_but_deformed(worse, best)
+    assert not is_close_but_deformed(replace(deformed, deformation_energy=1.5 * energy), best)
+    assert not is_close_but_deformed(replace(deformed, deformation_energy=None), best)
+    state = SearchState(
+        judged.source,
+        judged.target,
+        replace(kfmaps.Config(), threads=1),
+        NO_LANDMARKS,
+        None,
+        np.zeros(0, dtype=bool),
+        judged.samples,
+        judged.copies,
+        [],
+        [best, deformed],
+        "preserving",
+    )
+    asked = []
+    monkeypatch.setattr(choose, "rerank_close", lambda order, _proxies: asked.append(order) or order)
+    monkeypatch.setattr(choose, "_repaired", lambda _rival, _state: mended)
+    assert [c.name for c in choose._repair_rivals(state).ranked] == ["right", "mended"]
+    assert [[c.name for c in order] for order in asked] == [["right", "mended"]]
+    monkeypatch.setattr(choose, "_compare_exchanged", lambda state: state)
+    monkeypatch.setattr(choose, "refine_by_registration", lambda ranked, *_rest, **_: (ranked, ()))
+    improved = choose._improve_best(state, lambda _stage, _done: None)[0]
+    assert [c.name for c in improved.ranked] == ["right", "mended"]
+    asked.clear()
+    better = replace(mended, name="better", deformation_energy=energy / 2)
+    monkeypatch.setattr(choose, "_repaired", lambda _rival, _state: better)
+    assert [c.name for c in choose._repair_rivals(state).ranked] == ["better", "right"]
+    assert not asked
+    same = replace(mended, points=best.points)
+    monkeypatch.setattr(choose, "_repaired", lambda _rival, _state: same)
+    assert [c.name for c in choose._repair_rivals(state).ranked] == ["right"]
+    unchanged = replace(state, ranked=[best, worse])
+    assert choose._repair_rivals(unchanged) is unchanged

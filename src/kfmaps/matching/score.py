@@ -231,6 +231,9 @@ class Scoring:
     with two limbs exchanged or to the mirror image casts a doubt."""
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
+    turned_deformation: float = 3.0
+    """Difference in :func:`deformation_cost` to the best from which a candidate that is close to it otherwise is
+    repaired: one limb turned costs 5.9 and 8.5, front and back of a person exchanged up to 2.8."""
     repairable_margin: float = 6.0
     """Margin behind which a candidate is not repaired: repairs have gained up to 10, and decide between front and back
     (research/subtraction.md)."""
@@ -431,6 +434,15 @@ def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarra
 def deforms_too_much(candidate: Candidate) -> bool:
     """Return whether a map deforms the shapes much more than right maps of its score do, so that it may be wrong."""
     return candidate.excess_deformation > SCORE.excess_deformation
+
+
+def is_close_but_deformed(candidate: Candidate, best: Candidate) -> bool:
+    """Return whether a map is about as good as the best but for its much greater deformation energy."""
+    if candidate.deformation_energy is None or best.deformation_energy is None:
+        return False
+    more = deformation_cost(candidate.deformation_energy) - deformation_cost(best.deformation_energy)
+    behind = best.unregistered.score - candidate.unregistered.score
+    return more > SCORE.turned_deformation and behind < SCORE.close_margin
 
 
 def is_near_isometric(score: float) -> bool:

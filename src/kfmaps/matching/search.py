@@ -13,7 +13,8 @@ mirrored, or mirrored on half of the body. A search therefore compares many maps
    (:mod:`~kfmaps.matching.orientation`).
 5. Landmarks that the best map contradicts are rejected, and steps 2 to 4 are repeated without them
    (:mod:`~kfmaps.matching.landmark_conflicts`).
-6. The best map is compared with itself with two similar limbs exchanged (:mod:`~kfmaps.matching.limb_exchange`).
+6. The best map is compared with those that are as good but for their deformation, once these are repaired, and with
+   itself with two similar limbs exchanged (:mod:`~kfmaps.matching.limb_exchange`).
 7. Between unlike shapes the best candidates, or the best alone where it is "sure", are registered and refined in turn,
    and ranked again (:mod:`~kfmaps.matching.registration_refine`).
 8. The best candidate becomes the result, with alternatives, margins and a verdict
@@ -51,10 +52,25 @@ from kfmaps.matching.landmark_evidence import build_guidance, landmark_errors
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.orientation import choose_orientation
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring
-from kfmaps.matching.ranking import ProxyCache, ranking, rerank_near_duplicates, with_deformation_energy
+from kfmaps.matching.ranking import (
+    N_REGISTERED,
+    ProxyCache,
+    by_preference,
+    ranking,
+    rerank_close,
+    rerank_near_duplicates,
+    with_deformation_energy,
+)
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
 from kfmaps.matching.sample_pair import drop_landmarks, two_level_samples
-from kfmaps.matching.score import SCORE, Candidate, deforms_too_much, max_landmark_error, verdict
+from kfmaps.matching.score import (
+    SCORE,
+    Candidate,
+    deforms_too_much,
+    is_close_but_deformed,
+    max_landmark_error,
+    verdict,
+)
 from kfmaps.matching.search_result import SearchResult, build_result, calibrated_evidence
 from kfmaps.matching.search_state import SearchState
 from kfmaps.matching.self_maps import with_self_maps
@@ -238,24 +254,41 @@ def _rank(state: SearchState) -> SearchState:
         ranked = rerank_near_duplicates(ranked, near, samples, proxies, SCORE.duplicate_distance, behind)
         ranked = distinct_maps(ranked, samples.source, SCORE.distinct_distance)
     state = replace(state, ranked=ranked)
-    return choose_orientation(_repair_best(state) if too_much else state, too_much)
+    if too_much:
+        # A right map with one extremity turned deforms as much as one that ought to go to the mirror image.
+        state = replace(state, ranked=[_repaired(ranked[0], state), *ranked[1:]])
+    return choose_orientation(state, too_much)
 
 
-def _repair_best(state: SearchState) -> SearchState:
-    """Register the best candidate on proxies and refine it, and keep the result where it is better.
-
-    A right map with one extremity turned deforms as much as a map that ought to go to the mirror image.
-    """
-    best, proxies = state.ranked[0], state.proxies
+def _repaired(candidate: Candidate, state: SearchState) -> Candidate:
+    """Return a candidate registered on proxies and refined, or as it is where that is not better."""
+    proxies, landmarks = state.proxies, state.landmarks[~state.rejected]
     if proxies.coarse is None:
-        return state
-    guidance = build_guidance(state.source, proxies.image, state.landmarks, shot=proxies.shot_guidance)
-    *_, last = register_map_on_proxies(best.functional_map, proxies.coarse, guidance, state.landmarks)
+        return candidate
+    guidance = build_guidance(state.source, proxies.image, landmarks, shot=proxies.shot_guidance)
+    *_, last = register_map_on_proxies(candidate.functional_map, proxies.coarse, guidance, landmarks)
     if last is None:
-        return state
-    start = Start(best.name, last.functional_map[:FINE_FUNCTIONS, :FINE_FUNCTIONS], best.uses_descriptors, fit=best.fit)
+        return candidate
+    C = last.functional_map[:FINE_FUNCTIONS, :FINE_FUNCTIONS]
+    start = Start(candidate.name, C, candidate.uses_descriptors, fit=candidate.fit)
     repaired = with_deformation_energy(score_maps([start], state.samples.fine), proxies)[0]
-    return replace(state, ranked=[repaired, *state.ranked[1:]]) if repaired.score > best.score else state
+    return repaired if repaired.score > candidate.score else candidate
+
+
+def _repair_rivals(state: SearchState) -> SearchState:
+    """Repair the candidates that are as good as the best but for their deformation, and rank them again.
+
+    A map that is as good everywhere but in one limb, which is turned, is a rival to the best only when that is mended.
+    """
+    (best, *rest), proxies = state.ranked, state.proxies
+    near = N_REGISTERED - 1
+    repaired = [_repaired(c, state) if is_close_but_deformed(c, best) else c for c in rest[:near]]
+    if all(a is b for a, b in zip(repaired, rest, strict=False)):
+        return state
+    order = by_preference([best, *repaired, *rest[near:]])
+    if order[0].score - order[1].score < SCORE.shot_margin:
+        order = rerank_close(order, proxies)
+    return replace(state, ranked=distinct_maps(order, state.samples.fine.source, SCORE.distinct_distance))
 
 
 def _result(state: SearchState, retries: tuple[Candidate | SwappedRepair, ...]) -> SearchResult:
@@ -268,7 +301,7 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     samples, proxies = state.samples.fine, state.proxies
     if not samples.are_surfaces:
         return state, ()
-    state = _compare_exchanged(state)
+    state = _compare_exchanged(_repair_rivals(state))
     if state.ranked[0].quality.calibrated_score >= SCORE.repair_score:
         return state, ()
     # No wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
