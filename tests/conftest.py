@@ -185,8 +185,8 @@ def creatures() -> tuple[Any, Any, np.ndarray]:
     return shapes[0], shapes[1], made.truth
 
 
-def judged_pair(source: Any, target: Any, truth: np.ndarray, **how: Any) -> SimpleNamespace:
-    """Prepared shapes with samples of each, copies of both, and the true map as a candidate."""
+def prepared_pair(source: Any, target: Any, truth: np.ndarray, **how: Any) -> SimpleNamespace:
+    """Two prepared shapes with their samples and coarse proxies, and the true map as a candidate."""
     each = sample_for_scoring(source, **how), sample_for_scoring(target, **how)
     samples = two_level_samples(source, target, each)
     C = functional_map(truth, source, target)
@@ -195,17 +195,17 @@ def judged_pair(source: Any, target: Any, truth: np.ndarray, **how: Any) -> Simp
         target=target,
         truth=truth,
         samples=samples,
-        on=samples.fine,
+        fine=samples.fine,
         C=C,
         right=score_maps([Start("truth", C)], samples.fine)[0],
-        copies=ProxyCache.of(source, target, samples.fine),
+        proxies=ProxyCache.of(source, target, samples.fine),
     )
 
 
 @pytest.fixture(scope="session")
-def judged(creatures: tuple[Any, Any, np.ndarray]) -> SimpleNamespace:
-    """The creatures and how maps between them are judged."""
-    return judged_pair(*creatures, count=200)
+def creature_pair(creatures: tuple[Any, Any, np.ndarray]) -> SimpleNamespace:
+    """The creatures with what a search needs."""
+    return prepared_pair(*creatures, count=200)
 
 
 @pytest.fixture(scope="session")
@@ -213,7 +213,7 @@ def symmetric() -> SimpleNamespace:
     """Two poses of a creature that its mirror image equals, prepared for a small search."""
     made = kfmaps.datasets.symmetric_creature(1500, rng=1)
     source, target = (kfmaps.prepare(mesh, SMALL, name=name) for mesh, name in ((made.source, "a"), (made.target, "b")))
-    found = judged_pair(source, target, made.truth)
+    found = prepared_pair(source, target, made.truth)
     found.mirrored = made.mirrored
     return found
 

@@ -16,10 +16,9 @@ from kfmaps._threads import limit_threads
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
-from kfmaps.matching import finish, ranking, search_result
-from kfmaps.matching import match as matching
-from kfmaps.matching import registration_refine as mending
-from kfmaps.matching import search as choose
+from kfmaps.matching import finish, ranking, registration_refine, search_result
+from kfmaps.matching import match as match_module
+from kfmaps.matching import search as search_module
 from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityMatch,
@@ -39,7 +38,7 @@ from kfmaps.matching.sample_pair import TwoLevelSamples, mirrored_pair, paired_m
 from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much, is_close_but_deformed
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.search_state import SearchState
-from kfmaps.registration import alternating_registration as alternate
+from kfmaps.registration import alternating_registration as alternating_module
 from kfmaps.registration.alternating_registration import (
     AlternatingResult,
     _project_positions,
@@ -55,62 +54,64 @@ NOTHING = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_registration_evidence.py, and takes seconds."""
-    for module in (ranking, mending):
+    for module in (ranking, registration_refine):
         monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
 
 
 @pytest.fixture(scope="module")
-def astray(judged):
+def astray(creature_pair):
     """A map to nowhere."""
-    return np.linalg.qr(np.random.default_rng(0).normal(size=judged.C.shape))[0]
+    return np.linalg.qr(np.random.default_rng(0).normal(size=creature_pair.C.shape))[0]
 
 
-def error(C, judged):
+def error(C, creature_pair):
     k_t, k_s = C.shape
-    images = judged.source.basis.functions[:, :k_s] @ C.T
-    points = nearest(np.ascontiguousarray(judged.target.basis.functions[:, :k_t]), images)
-    return kfmaps.geodesic_errors(judged.source.mesh, points, judged.truth).mean()
+    images = creature_pair.source.basis.functions[:, :k_s] @ C.T
+    points = nearest(np.ascontiguousarray(creature_pair.target.basis.functions[:, :k_t]), images)
+    return kfmaps.geodesic_errors(creature_pair.source.mesh, points, creature_pair.truth).mean()
 
 
-def torn(judged, parts):
+def torn(creature_pair, parts):
     """The true map, of which one of so many parts is sent elsewhere."""
-    points = judged.truth.copy()
-    high = np.argsort(judged.target.mesh.vertices[:, 0])[-len(points) // parts :]
+    points = creature_pair.truth.copy()
+    high = np.argsort(creature_pair.target.mesh.vertices[:, 0])[-len(points) // parts :]
     points[high] = np.random.default_rng(0).permutation(points[high])
-    return functional_map(points, judged.source, judged.target)
+    return functional_map(points, creature_pair.source, creature_pair.target)
 
 
-def repaired(judged, *begun, progress=None) -> Any:
+def repaired(creature_pair, *begun, progress=None) -> Any:
     ranked = [replace(c, deformation_energy=1.0) for c in begun]
     more = () if progress is None else (progress,)
     with limit_threads(1):  # one repair after another
-        return refine_by_registration(ranked, judged.on, judged.copies, NO_LANDMARKS, *more)
+        return refine_by_registration(ranked, creature_pair.fine, creature_pair.proxies, NO_LANDMARKS, *more)
 
 
-def test_rounds_mend_a_torn_map_and_bend_vertices_to_where_the_truth_says(judged, monkeypatch):
+def test_rounds_repair_a_torn_map_and_register_vertices_where_the_truth_is(creature_pair, monkeypatch):
     """What remains of a torn map pulls the rest back, which functions alone do not; each fit is followed by a
     refinement that it takes part in."""
-    pair, C = judged.copies.fine, torn(judged, 4)
+    pair, C = creature_pair.proxies.fine, torn(creature_pair, 4)
     *_, mended = alternating_registration(C, pair, None, NO_LANDMARKS)
-    assert error(mended.functional_map, judged) < 0.7 * error(C, judged)
-    rounds = list(alternating_registration(judged.C, pair, None, NO_LANDMARKS))
-    off = np.linalg.norm(rounds[-1].registered_vertices[judged.truth] - judged.target.mesh.vertices, axis=1)
+    assert error(mended.functional_map, creature_pair) < 0.7 * error(C, creature_pair)
+    rounds = list(alternating_registration(creature_pair.C, pair, None, NO_LANDMARKS))
+    off = np.linalg.norm(
+        rounds[-1].registered_vertices[creature_pair.truth] - creature_pair.target.mesh.vertices, axis=1
+    )
     assert off.mean() < 0.04
-    assert len(rounds) == alternate._ROUNDS
+    assert len(rounds) == alternating_module._ROUNDS
     assert not np.array_equal(rounds[0].functional_map, rounds[-1].functional_map)
-    monkeypatch.setattr(alternate, "WEIGHT", 0.0)
-    *_, without = alternating_registration(judged.C, pair, None, NO_LANDMARKS)
-    assert error(rounds[-1].functional_map, judged) < error(without.functional_map, judged)
+    monkeypatch.setattr(alternating_module, "WEIGHT", 0.0)
+    *_, without = alternating_registration(creature_pair.C, pair, None, NO_LANDMARKS)
+    assert error(rounds[-1].functional_map, creature_pair) < error(without.functional_map, creature_pair)
 
 
-def test_positions_are_spread_smoothly(judged):
-    pair, source = judged.copies.fine, judged.source
-    again = _project_positions(pair.copies[0].mesh.vertices, pair.bases[0], source.basis)
+def test_positions_are_spread_smoothly(creature_pair):
+    pair, source = creature_pair.proxies.fine, creature_pair.source
+    again = _project_positions(pair.proxies[0].mesh.vertices, pair.bases[0], source.basis)
     assert np.linalg.norm(again - source.mesh.vertices, axis=1).mean() < 0.01
 
 
-def test_what_lies_on_itself_differs_nowhere(judged):
-    mesh = judged.source.mesh
+def test_what_lies_on_itself_differs_nowhere(creature_pair):
+    mesh = creature_pair.source.mesh
     guide = position_normal_guidance(mesh, mesh)
     assert np.array_equal(guide.source, guide.target)
     a, b = np.random.default_rng(0).integers(len(mesh.vertices), size=(2, 4000))
@@ -118,70 +119,70 @@ def test_what_lies_on_itself_differs_nowhere(judged):
     assert apart.mean() == pytest.approx(1.0, abs=0.1)
 
 
-def test_point_clouds_are_not_bent(judged):
-    source, on = judged.source, judged.on
+def test_point_clouds_are_not_registered(creature_pair):
+    source, on = creature_pair.source, creature_pair.fine
     cloud = replace(source, mesh=cloud_of(source.mesh))
     for shapes in ((cloud, source), (source, cloud)):
         assert ProxyCache.of(*shapes, on).fine is None
-    for coarse in ((None, on.target.copy), (on.source.copy, None)):
+    for coarse in ((None, on.target.proxy), (on.source.proxy, None)):
         assert ProxyCache(source, source, coarse).coarse is None
 
 
-def test_copies_are_made_once_and_of_the_image_that_is_meant(judged):
-    kept: Any = judged.copies
-    image: Any = ProxyCache.of(judged.source, judged.target, mirrored_pair(judged.on))
-    assert kept.image is judged.target
-    np.testing.assert_array_equal(image.image.mesh.vertices, judged.target.mesh.vertices * MIRROR)
+def test_proxies_are_made_once_and_of_the_image_that_is_meant(creature_pair):
+    kept: Any = creature_pair.proxies
+    image: Any = ProxyCache.of(creature_pair.source, creature_pair.target, mirrored_pair(creature_pair.fine))
+    assert kept.image is creature_pair.target
+    np.testing.assert_array_equal(image.image.mesh.vertices, creature_pair.target.mesh.vertices * MIRROR)
     for name in ("coarse", "fine"):
         assert getattr(kept, name) is getattr(kept, name)
-        (a, b), (c, d) = (getattr(of, name).copies for of in (kept, image))
+        (a, b), (c, d) = (getattr(of, name).proxies for of in (kept, image))
         np.testing.assert_array_equal(c.mesh.vertices, a.mesh.vertices)
         np.testing.assert_array_equal(d.mesh.vertices, b.mesh.vertices * MIRROR)
     assert kept.shot_guidance is kept.shot_guidance
     assert not np.allclose(kept.shot_guidance.target, image.shot_guidance.target)
 
 
-def test_mending_tells_how_far_it_is(judged, monkeypatch):
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
+def test_repairs_report_their_progress(creature_pair, monkeypatch):
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
     told = []
-    repaired(judged, judged.right, progress=lambda *what: told.append(what))
+    repaired(creature_pair, creature_pair.right, progress=lambda *what: told.append(what))
     assert told == [("bent and matched in turn", done) for done in (0.0, 0.5, 1.0)]
 
 
-def test_the_target_is_bent_and_the_source_where_that_is_asked_for(judged, monkeypatch):
+def test_the_target_is_registered_and_the_source_where_that_is_asked_for(creature_pair, monkeypatch):
     """Of the winner alone, and not where a copy falls apart."""
-    n_s, n_t = (len(shape.mesh.vertices) for shape in (judged.source, judged.target))
+    n_s, n_t = (len(shape.mesh.vertices) for shape in (creature_pair.source, creature_pair.target))
     calls, apart = [], []
 
     def made(C, on, led, _landmarks):
-        calls.append((on.source is judged.target, led.source.shape[0], np.array_equal(C, judged.C.T)))
-        if (on.source is judged.target) in apart:
+        calls.append((on.source is creature_pair.target, led.source.shape[0], np.array_equal(C, creature_pair.C.T)))
+        if (on.source is creature_pair.target) in apart:
             raise NotConverged("it fell apart")
         yield AlternatingResult(C, on.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "alternating_registration", made)
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    (first,), (way,) = repaired(judged, judged.right)  # nothing else was mended
+    monkeypatch.setattr(registration_refine, "alternating_registration", made)
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
+    (first,), (way,) = repaired(creature_pair, creature_pair.right)  # nothing else was mended
     assert calls == [(True, n_t, True)]
     other = way.make()
     assert calls[1:] == [(False, n_s, False)]
     for one, backwards, count in ((first, True, n_t), (other, False, n_s)):
         assert one.swapped == backwards
         assert len(one.registered_vertices) == count
-        np.testing.assert_array_equal(one.functional_map, judged.C)
+        np.testing.assert_array_equal(one.functional_map, creature_pair.C)
     apart.append(False)
     assert way.make() is None
     apart.append(True)
-    assert repaired(judged, judged.right)[0][0].registered_vertices is None
+    assert repaired(creature_pair, creature_pair.right)[0][0].registered_vertices is None
 
 
-def test_likely_pairings_are_begun_with_where_no_map_has_them(judged, monkeypatch):
+def test_likely_extremity_matches_that_no_map_has_are_repaired_too(creature_pair, monkeypatch):
     """With their own tips, which what is mended keeps to, and only as long as the copies hold."""
-    on = judged.on
+    on = creature_pair.fine
     (best, *others) = match_extremities(on.source, on.target, on.descriptor_cost)
     mirror = next(one for one in others if one.contradicts(best))
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
-    monkeypatch.setattr(mending, "complete_match", lambda one, _likely: one)
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [best, mirror])
+    monkeypatch.setattr(registration_refine, "complete_match", lambda one, _likely: one)
     begun, asked = [], []
 
     def tips_of(pairing, *rest):
@@ -194,22 +195,22 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(judged, monkeypatc
             raise NotConverged("it fell apart")
         yield AlternatingResult(C, on.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "alternating_registration", made)
-    monkeypatch.setattr(mending, "vertices_of_match", tips_of)
-    found, (other, _) = repaired(judged, judged.right)
+    monkeypatch.setattr(registration_refine, "alternating_registration", made)
+    monkeypatch.setattr(registration_refine, "vertices_of_match", tips_of)
+    found, (other, _) = repaired(creature_pair, creature_pair.right)
     names = {c.name for c in found}
     assert {found[0].name, other.name} == names == {"truth", f"{mirror}"}
     assert len(begun) == 2  # the truth has the best pairing itself
-    assert asked == [f"{match_of_map(judged.right.points, on.source, on.target)}", f"{mirror}"]
+    assert asked == [f"{match_of_map(creature_pair.right.points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
-    monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
-    assert f"{mirror}" not in {c.name for c in repaired(judged, judged.right)[0]}
+    monkeypatch.setattr(registration_refine, "match_of_map", lambda *_: None)
+    assert f"{mirror}" not in {c.name for c in repaired(creature_pair, creature_pair.right)[0]}
     assert len(begun) == 5
 
 
-def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(judged, astray, monkeypatch):
+def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature_pair, astray, monkeypatch):
     """The best repair began with an extremity match, all others lag: what is left of it leads nevertheless."""
-    good, bad = score_maps([Start("matched", judged.C), Start("before", astray)], judged.on)
+    good, bad = score_maps([Start("matched", creature_pair.C), Start("before", astray)], creature_pair.fine)
 
     def made(C, where, *_rest):
         yield AlternatingResult(C, where.source.mesh.vertices)
@@ -217,23 +218,26 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(judged, 
             raise NotConverged("it fell apart")
         yield AlternatingResult(C, where.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=0.01))
-    monkeypatch.setattr(mending, "alternating_registration", made)
+    monkeypatch.setattr(registration_refine, "SCORE", replace(SCORE, repair_lag=0.01))
+    monkeypatch.setattr(registration_refine, "alternating_registration", made)
 
     def plan(setting, near, _n_matches):
-        return [*(mending.Repair(setting, c, None) for c in near), mending.Repair(setting, good, None, False)]
+        return [
+            *(registration_refine.Repair(setting, c, None) for c in near),
+            registration_refine.Repair(setting, good, None, False),
+        ]
 
-    monkeypatch.setattr(mending, "_plan_repairs", plan)
-    assert [c.name for c in repaired(judged, bad)[0]] == ["matched", "before"]
+    monkeypatch.setattr(registration_refine, "_plan_repairs", plan)
+    assert [c.name for c in repaired(creature_pair, bad)[0]] == ["matched", "before"]
 
 
-def test_what_lags_after_one_round_is_given_up(judged, astray, monkeypatch):
+def test_what_lags_after_one_round_is_given_up(creature_pair, astray, monkeypatch):
     """It stays a rival that is bent as badly as the worst; what was good before its first round is not given up."""
-    good, bad = score_maps([Start("0", judged.C), Start("1", astray)], judged.on)
+    good, bad = score_maps([Start("0", creature_pair.C), Start("1", astray)], creature_pair.fine)
     gap, rounds = good.quality.score - bad.quality.score, []
 
     def made(C, where, *_rest):
-        back = where.source is judged.target
+        back = where.source is creature_pair.target
         for i in range(2):
             rounds.append((back, np.array_equal(C, astray.T if back else astray), i))
             yield AlternatingResult(C, where.source.mesh.vertices)
@@ -241,11 +245,11 @@ def test_what_lags_after_one_round_is_given_up(judged, astray, monkeypatch):
     def after(*begun, lag):
         """What repairs that change nothing leave of some maps, when they lag by so much."""
         rounds.clear()
-        monkeypatch.setattr(mending, "SCORE", replace(SCORE, repair_lag=lag, repairable_margin=np.inf))
-        return repaired(judged, *begun)[0]
+        monkeypatch.setattr(registration_refine, "SCORE", replace(SCORE, repair_lag=lag, repairable_margin=np.inf))
+        return repaired(creature_pair, *begun)[0]
 
-    monkeypatch.setattr(mending, "alternating_registration", made)
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
+    monkeypatch.setattr(registration_refine, "alternating_registration", made)
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
     assert [c.name for c in after(good, bad, lag=gap + 0.01)] == ["0", "1"]
     assert rounds.count((True, True, 1)) == 1
     first, second = after(good, bad, lag=gap - 0.01)
@@ -259,7 +263,7 @@ def test_what_lags_after_one_round_is_given_up(judged, astray, monkeypatch):
     assert {(True, True, 1), (False, True, 1)} <= set(rounds)
 
 
-def test_pairings_are_heard_once():
+def test_extremity_matches_are_used_once():
     def pairing(*pairs):
         return ExtremityMatch(*np.array(pairs).T)
 
@@ -280,12 +284,12 @@ def test_pairings_are_heard_once():
     assert not whole.contradicts(part)
 
 
-def test_what_goes_astray_stays_as_it_was(judged, astray, monkeypatch):
-    lost = AlternatingResult(astray, judged.target.mesh.vertices)
-    monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: iter([lost]))
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    (found,), (way,) = repaired(judged, judged.right)
-    assert found.functional_map is judged.right.functional_map
+def test_a_map_that_a_repair_makes_worse_stays_as_it_was(creature_pair, astray, monkeypatch):
+    lost = AlternatingResult(astray, creature_pair.target.mesh.vertices)
+    monkeypatch.setattr(registration_refine, "alternating_registration", lambda *_rest: iter([lost]))
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
+    (found,), (way,) = repaired(creature_pair, creature_pair.right)
+    assert found.functional_map is creature_pair.right.functional_map
     assert found.registered_vertices is None
     assert not way.make().swapped
     # Looked at as closely as what it is compared with.
@@ -293,19 +297,19 @@ def test_what_goes_astray_stays_as_it_was(judged, astray, monkeypatch):
     assert found.strain is not None
 
 
-def test_what_goes_astray_one_way_is_mended_the_other(judged, astray, monkeypatch):
-    rough = judged.C + 0.02 * np.random.default_rng(1).normal(size=judged.C.shape)
+def test_a_repair_that_fails_in_one_direction_is_made_in_the_other(creature_pair, astray, monkeypatch):
+    rough = creature_pair.C + 0.02 * np.random.default_rng(1).normal(size=creature_pair.C.shape)
 
     def made(_C, where, *_rest):
-        found = astray if where.source is judged.target else judged.C
+        found = astray if where.source is creature_pair.target else creature_pair.C
         yield AlternatingResult(found, where.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "alternating_registration", made)
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    (found,) = repaired(judged, *score_maps([Start("rough", rough)], judged.on))[0]
-    np.testing.assert_array_equal(found.functional_map, judged.C)
+    monkeypatch.setattr(registration_refine, "alternating_registration", made)
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
+    (found,) = repaired(creature_pair, *score_maps([Start("rough", rough)], creature_pair.fine))[0]
+    np.testing.assert_array_equal(found.functional_map, creature_pair.C)
     assert not found.swapped
-    assert found.registered_vertices is judged.source.mesh.vertices
+    assert found.registered_vertices is creature_pair.source.mesh.vertices
 
 
 @pytest.mark.parametrize(
@@ -315,7 +319,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(judged, astray, monkeypatc
         ((0.0,) * 7, (0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0), "abef"),  # however many hardly differ from the first
     ],
 )
-def test_the_first_few_are_mended_and_those_that_differ_and_the_rest_stays_once(scores, places, mended):
+def test_the_first_few_are_repaired_and_those_that_differ_and_the_rest_stay_once(scores, places, mended):
     """Sample i lies at the i-th place, and the points of the i-th candidate all there."""
     ranked = [
         Candidate(name, np.eye(2), np.full(3, i), NOTHING, strain=-s / SCORE.w_strain)
@@ -327,15 +331,15 @@ def test_the_first_few_are_mended_and_those_that_differ_and_the_rest_stays_once(
     assert rest == "".join(c.name for c in ranked if c.name not in mended)
 
 
-def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(judged):
-    starts = [Start("torn", torn(judged, 6)), Start("truth", judged.C)]
-    bad, good = score_maps(starts, judged.on)
+def test_a_map_that_hardly_differs_comes_first_where_it_deforms_less(creature_pair):
+    starts = [Start("torn", torn(creature_pair, 6)), Start("truth", creature_pair.C)]
+    bad, good = score_maps(starts, creature_pair.fine)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
-    ranked: Any = ranking.ranking([bad], judged.on, judged.copies)
+    ranked: Any = ranking.ranking([bad], creature_pair.fine, creature_pair.proxies)
 
     def reranked(*found, **how):
-        return rerank_near_duplicates(ranked, list(found), judged.on, judged.copies, **how)
+        return rerank_near_duplicates(ranked, list(found), creature_pair.fine, creature_pair.proxies, **how)
 
     found: Any = reranked(bad, good)
     assert [c.name for c in found] == ["truth", "torn"]
@@ -356,31 +360,33 @@ def test_a_map_deforms_too_much_or_not():
     assert [deforms_too_much(replace(one, deformation_energy=e)) for e in energies] == [False, False, True]
 
 
-def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(judged, monkeypatch):
-    source, target = judged.source, judged.target
+def test_of_near_duplicates_the_one_that_deforms_less_is_found(creature_pair, monkeypatch):
+    source, target = creature_pair.source, creature_pair.target
     on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target)))
-    best = score_maps([Start("best", judged.C)], on.fine)[0]
+    best = score_maps([Start("best", creature_pair.C)], on.fine)[0]
     few = np.where(np.arange(len(best.points)) < len(best.points) // 20, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
-    alike = replace(best, name="alike", points=few, quality=worse, functional_map=judged.C.copy())
+    alike = replace(best, name="alike", points=few, quality=worse, functional_map=creature_pair.C.copy())
     assert SCORE.duplicate_distance < map_distance(best, alike, on.fine.source) < SCORE.distinct_distance
     bends = {"best": 0.12, "alike": 0.06}
-    monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
+    monkeypatch.setattr(search_module, "candidates", lambda *_what, **_how: [best, alike])
     monkeypatch.setattr(
         ranking,
         "with_deformation_energy",
         lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some],
     )
     config = kfmaps.Config(threads=1, search=kfmaps.Search(orientation="preserving"))
-    found = choose.search_map(source, target, config)
+    found = search_module.search_map(source, target, config)
     assert found.initialization == "alike"
     assert len(found.scores) == 1
 
 
-def test_the_match_that_is_worth_more_is_taken(judged):
+def test_the_match_that_is_worth_more_is_taken(creature_pair):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
-    one = finish.match_from_map(judged.source, judged.target, finish.KnownMap(judged.truth, "a", quality=-9.0))
-    areas = vertex_areas(judged.target.mesh)
+    one = finish.match_from_map(
+        creature_pair.source, creature_pair.target, finish.KnownMap(creature_pair.truth, "a", quality=-9.0)
+    )
+    areas = vertex_areas(creature_pair.target.mesh)
 
     def made(score, share):
         trust = np.where(np.cumsum(areas) <= share * areas.sum(), 0.4, 0.9)
@@ -397,8 +403,10 @@ def test_the_match_that_is_worth_more_is_taken(judged):
     assert better_match(known, replace(refused, registration=MatchRegistration())) is known
 
 
-def test_the_energy_of_the_registration_takes_the_place_of_that_of_the_proxies(judged):
-    one = finish.match_from_map(judged.source, judged.target, finish.KnownMap(judged.truth, "a", quality=-9.0))
+def test_the_energy_of_the_registration_takes_the_place_of_that_of_the_proxies(creature_pair):
+    one = finish.match_from_map(
+        creature_pair.source, creature_pair.target, finish.KnownMap(creature_pair.truth, "a", quality=-9.0)
+    )
     torn, own_report = (finish.torn_area_fraction(one) or 0.0) * SCORE.w_torn, one.registration.report
     assert own_report is not None
 
@@ -419,17 +427,19 @@ def test_the_energy_of_the_registration_takes_the_place_of_that_of_the_proxies(j
     assert better_match(usual, made(-9.0 - 1.1 * gain, 0.4, 0.2)) is usual
 
 
-def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(judged, monkeypatch):
-    source, target = judged.source, judged.target
-    other = SearchResult(judged.C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
+def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creature_pair, monkeypatch):
+    source, target = creature_pair.source, creature_pair.target
+    other = SearchResult(creature_pair.C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
     asked = []
     ways: Any = (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
-    monkeypatch.setattr(matching, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
-    monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", retries=ways))
-    monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
+    monkeypatch.setattr(match_module, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
+    monkeypatch.setattr(
+        match_module, "search_map", lambda *_a, **_k: replace(other, initialization="one", retries=ways)
+    )
+    monkeypatch.setattr(match_module, "better_match", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config(), registration=None)
     for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
-        for module in (matching, finish):
+        for module in (match_module, finish):
             monkeypatch.setattr(module, "torn_area_fraction", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
         assert found.score.initialization == ends
@@ -437,21 +447,21 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(judged, monkeypatch)
     assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
 
 
-def test_a_search_tells_what_else_may_turn_out_better(judged, monkeypatch):
+def test_a_search_tells_what_else_may_turn_out_better(creature_pair, monkeypatch):
     """Each where its score is above what is known; the alternatives of each differ from it."""
     one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), NOTHING, deformation_energy=0.15)
     ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / SCORE.w_strain) for i in range(5)]
     twin = replace(one, name="twin", strain=0.5 / SCORE.w_strain)
     setting: Any = None
-    back = mending.SwappedRepair(mending.Repair(setting, twin, None), (0.0, 0.0))
-    monkeypatch.setattr(mending.SwappedRepair, "make", lambda _self: None)
-    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
-    monkeypatch.setattr(choose, "refine_by_registration", lambda *_, **__: (ranked, (ranked[2], twin, back)))
-    monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
+    back = registration_refine.SwappedRepair(registration_refine.Repair(setting, twin, None), (0.0, 0.0))
+    monkeypatch.setattr(registration_refine.SwappedRepair, "make", lambda _self: None)
+    monkeypatch.setattr(search_module, "SCORE", replace(SCORE, repair_score=np.inf))
+    monkeypatch.setattr(search_module, "refine_by_registration", lambda *_, **__: (ranked, (ranked[2], twin, back)))
+    monkeypatch.setattr(search_module, "rerank_near_duplicates", lambda *_: ranked)
     monkeypatch.setattr(search_result, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
-    monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
-    found = choose.search_map(judged.source, judged.target, kfmaps.Config())
-    made = [choose.retry(found, i, -np.inf) for i in range(3)]
+    monkeypatch.setattr(search_module, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
+    found = search_module.search_map(creature_pair.source, creature_pair.target, kfmaps.Config())
+    made = [search_module.retry(found, i, -np.inf) for i in range(3)]
     best = [c.score for c in ranked]
     assert [m and (m.initialization, m.scores[:2]) for m in (found, *made)] == [
         ("0", (best[0], best[1])),
@@ -459,22 +469,22 @@ def test_a_search_tells_what_else_may_turn_out_better(judged, monkeypatch):
         ("twin", (twin.score, best[1])),
         None,
     ]
-    assert [choose.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
+    assert [search_module.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
 
 
 @pytest.mark.parametrize(("told", "alone"), [("sure", True), ("likely", False)])
-def test_of_a_sure_map_nothing_else_is_repaired(judged, astray, monkeypatch, told, alone):
-    found = score_maps([Start("0", judged.C), Start("1", astray)], judged.on)
+def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypatch, told, alone):
+    found = score_maps([Start("0", creature_pair.C), Start("1", astray)], creature_pair.fine)
     ranked = [replace(c, deformation_energy=1.0) for c in found]
     state = SearchState(
-        judged.source,
-        judged.target,
+        creature_pair.source,
+        creature_pair.target,
         kfmaps.Config(),
         landmarks=NO_LANDMARKS,
         evidence=None,
         rejected=np.zeros(0, dtype=bool),
-        samples=TwoLevelSamples(judged.on, judged.on),
-        proxies=judged.copies,
+        samples=TwoLevelSamples(creature_pair.fine, creature_pair.fine),
+        proxies=creature_pair.proxies,
         candidates=found,
         ranked=ranked,
         orientation="preserving",
@@ -485,45 +495,48 @@ def test_of_a_sure_map_nothing_else_is_repaired(judged, astray, monkeypatch, tol
         planned.extend(repair.start.name for repair in repairs)
         return dict(enumerate(ranked[: len(repairs)])), {}
 
-    monkeypatch.setattr(choose, "verdict", lambda *_: told)
-    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
-    monkeypatch.setattr(choose, "_compare_exchanged", lambda state: state)
-    monkeypatch.setattr(mending, "SCORE", replace(SCORE, repairable_margin=np.inf))
-    monkeypatch.setattr(mending, "_run_repairs", run)
-    choose._improve_best(state, lambda *_: None)
+    monkeypatch.setattr(search_module, "verdict", lambda *_: told)
+    monkeypatch.setattr(search_module, "SCORE", replace(SCORE, repair_score=np.inf))
+    monkeypatch.setattr(search_module, "_compare_exchanged", lambda state: state)
+    monkeypatch.setattr(registration_refine, "SCORE", replace(SCORE, repairable_margin=np.inf))
+    monkeypatch.setattr(registration_refine, "_run_repairs", run)
+    search_module._improve_best(state, lambda *_: None)
     assert (planned == ["0"]) == alone
     assert {"0", "1"} <= set(planned) or alone
 
 
-def test_where_the_target_lies_leads_as_well(judged):
+def test_registered_positions_of_the_target_guide_as_well(creature_pair):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
-    source, target = judged.source, judged.target
+    source, target = creature_pair.source, creature_pair.target
     bent = target.mesh.vertices + 1.0
     found = SearchResult(np.eye(5), "a", None, "unlikely", registered_vertices=bent, swapped=True)
     led, alone = (
-        matching._search_guidance(one, (source, target)) for one in (found, replace(found, registered_vertices=None))
+        match_module._search_guidance(one, (source, target))
+        for one in (found, replace(found, registered_vertices=None))
     )
     lie = position_normal_guidance(source.mesh, Mesh(bent, target.mesh.faces))
     for side in ("source", "target"):
-        both = np.hstack([getattr(alone, side), np.sqrt(alternate.WEIGHT) * getattr(lie, side)])
+        both = np.hstack([getattr(alone, side), np.sqrt(alternating_module.WEIGHT) * getattr(lie, side)])
         np.testing.assert_allclose(getattr(led, side), both)
 
 
-def test_a_map_is_registered_on_proxies_either_way(judged, monkeypatch):
+def test_a_map_is_registered_on_proxies_either_way(creature_pair, monkeypatch):
     """The vertices are those of the side that is registered; descriptors stay on their side."""
-    source, target = judged.source, judged.target
-    pair, asked = judged.copies.fine, []
+    source, target = creature_pair.source, creature_pair.target
+    pair, asked = creature_pair.proxies.fine, []
     led = DescriptorGuidance(source.mesh.vertices, target.mesh.vertices)
-    usual = mending.alternating_registration
+    usual = registration_refine.alternating_registration
 
     def told(C, pair, guidance, landmarks):
         asked.append((pair.source, guidance.source, guidance.target))
         return usual(C, pair, guidance, landmarks)
 
-    monkeypatch.setattr(mending, "alternating_registration", told)
+    monkeypatch.setattr(registration_refine, "alternating_registration", told)
     for swapped, moved, other in ((True, target, source), (False, source, target)):
-        found: Any = [*mending.register_map_on_proxies(judged.C, pair, led, NO_LANDMARKS, swapped)][-1]
-        assert error(found.functional_map, judged) < 0.05
+        found: Any = [*registration_refine.register_map_on_proxies(creature_pair.C, pair, led, NO_LANDMARKS, swapped)][
+            -1
+        ]
+        assert error(found.functional_map, creature_pair) < 0.05
         assert found.registered_vertices.shape == moved.mesh.vertices.shape
         shape, own, theirs = asked.pop()
         assert shape is moved
@@ -531,48 +544,50 @@ def test_a_map_is_registered_on_proxies_either_way(judged, monkeypatch):
         assert theirs is other.mesh.vertices
 
     def falls_apart(*_what):
-        yield AlternatingResult(judged.C, source.mesh.vertices)
+        yield AlternatingResult(creature_pair.C, source.mesh.vertices)
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(mending, "alternating_registration", falls_apart)
-    ended = mending.register_map_on_proxies(judged.C, pair, led, NO_LANDMARKS)
+    monkeypatch.setattr(registration_refine, "alternating_registration", falls_apart)
+    ended = registration_refine.register_map_on_proxies(creature_pair.C, pair, led, NO_LANDMARKS)
     assert [one is None for one in ended] == [False, True]
 
 
-def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_images(judged, monkeypatch):
+def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_images(creature_pair, monkeypatch):
     """The repaired map stays where it is better, and where no proxy can be registered all stays as it is."""
-    source, target, copies = judged.source, judged.target, judged.copies
-    starts = [Start("torn", torn(judged, 4)), Start("right", judged.C)]
-    found: Any = ranking.with_deformation_energy(score_maps(starts, judged.on), copies)
+    source, target, copies = creature_pair.source, creature_pair.target, creature_pair.proxies
+    starts = [Start("torn", torn(creature_pair, 4)), Start("right", creature_pair.C)]
+    found: Any = ranking.with_deformation_energy(score_maps(starts, creature_pair.fine), copies)
     config, wrong = replace(kfmaps.Config(), threads=1), np.zeros(0, dtype=bool)
     torn_first = SearchState(
-        source, target, config, NO_LANDMARKS, None, wrong, judged.samples, copies, found, found, "preserving"
+        source, target, config, NO_LANDMARKS, None, wrong, creature_pair.samples, copies, found, found, "preserving"
     )
-    best: Any = choose._repaired(found[0], torn_first)
+    best: Any = search_module._repaired(found[0], torn_first)
     assert best.score > found[0].score
     assert best.deformation_energy < found[0].deformation_energy
     told = []
-    monkeypatch.setattr(choose, "build_guidance", lambda *what, **_shot: told.append(what[2]))
+    monkeypatch.setattr(search_module, "build_guidance", lambda *what, **_shot: told.append(what[2]))
     pairs = np.array([[3, 5], [8, 2]])
-    choose._repaired(found[0], replace(torn_first, landmarks=pairs, rejected=np.array([True, False])))
+    search_module._repaired(found[0], replace(torn_first, landmarks=pairs, rejected=np.array([True, False])))
     np.testing.assert_array_equal(told[0], pairs[1:], err_msg="rejected landmarks take no part")
     monkeypatch.undo()
     compared = []
-    monkeypatch.setattr(choose, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)
+    monkeypatch.setattr(search_module, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)
     for too_much in (False, True):
-        monkeypatch.setattr(choose, "deforms_too_much", lambda _best, too_much=too_much: too_much)
-        ranked = choose._rank(replace(torn_first, candidates=found[:1])).ranked
+        monkeypatch.setattr(search_module, "deforms_too_much", lambda _best, too_much=too_much: too_much)
+        ranked = search_module._rank(replace(torn_first, candidates=found[:1])).ranked
         assert (ranked[0].score > found[0].score) == too_much
     assert compared == [False, True]
-    monkeypatch.setattr(choose, "register_map_on_proxies", lambda *_what: iter([None]))
-    assert choose._repaired(found[0], torn_first) is found[0]
+    monkeypatch.setattr(search_module, "register_map_on_proxies", lambda *_what: iter([None]))
+    assert search_module._repaired(found[0], torn_first) is found[0]
     flat = replace(torn_first, proxies=ProxyCache(source, target, (None, None)))
-    assert choose._repaired(found[0], flat) is found[0]
+    assert search_module._repaired(found[0], flat) is found[0]
 
 
-def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(judged, monkeypatch):
+def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair, monkeypatch):
     """It is ranked again with its new score; a rival that is worse in more than its deformation stays as it is."""
-    found: Any = ranking.with_deformation_energy(score_maps([Start("right", judged.C)], judged.on), judged.copies)
+    found: Any = ranking.with_deformation_energy(
+        score_maps([Start("right", creature_pair.C)], creature_pair.fine), creature_pair.proxies
+    )
     best: Any = found[0]
     energy, away = best.deformation_energy, (best.points + len(best.points) // 2) % len(best.points)
     deformed = replace(best, name="deformed", points=away, deformation_energy=2 * energy)
@@ -583,34 +598,34 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(judged, monke
     assert not is_close_but_deformed(replace(deformed, deformation_energy=1.5 * energy), best)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=None), best)
     state = SearchState(
-        judged.source,
-        judged.target,
+        creature_pair.source,
+        creature_pair.target,
         replace(kfmaps.Config(), threads=1),
         NO_LANDMARKS,
         None,
         np.zeros(0, dtype=bool),
-        judged.samples,
-        judged.copies,
+        creature_pair.samples,
+        creature_pair.proxies,
         [],
         [best, deformed],
         "preserving",
     )
     asked = []
-    monkeypatch.setattr(choose, "rerank_close", lambda order, _proxies: asked.append(order) or order)
-    monkeypatch.setattr(choose, "_repaired", lambda _rival, _state: mended)
-    assert [c.name for c in choose._repair_rivals(state).ranked] == ["right", "mended"]
+    monkeypatch.setattr(search_module, "rerank_close", lambda order, _proxies: asked.append(order) or order)
+    monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: mended)
+    assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right", "mended"]
     assert [[c.name for c in order] for order in asked] == [["right", "mended"]]
-    monkeypatch.setattr(choose, "_compare_exchanged", lambda state: state)
-    monkeypatch.setattr(choose, "refine_by_registration", lambda ranked, *_rest, **_: (ranked, ()))
-    improved = choose._improve_best(state, lambda _stage, _done: None)[0]
+    monkeypatch.setattr(search_module, "_compare_exchanged", lambda state: state)
+    monkeypatch.setattr(search_module, "refine_by_registration", lambda ranked, *_rest, **_: (ranked, ()))
+    improved = search_module._improve_best(state, lambda _stage, _done: None)[0]
     assert [c.name for c in improved.ranked] == ["right", "mended"]
     asked.clear()
     better = replace(mended, name="better", deformation_energy=energy / 2)
-    monkeypatch.setattr(choose, "_repaired", lambda _rival, _state: better)
-    assert [c.name for c in choose._repair_rivals(state).ranked] == ["better", "right"]
+    monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: better)
+    assert [c.name for c in search_module._repair_rivals(state).ranked] == ["better", "right"]
     assert not asked
     same = replace(mended, points=best.points)
-    monkeypatch.setattr(choose, "_repaired", lambda _rival, _state: same)
-    assert [c.name for c in choose._repair_rivals(state).ranked] == ["right"]
+    monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: same)
+    assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right"]
     unchanged = replace(state, ranked=[best, worse])
-    assert choose._repair_rivals(unchanged) is unchanged
+    assert search_module._repair_rivals(unchanged) is unchanged

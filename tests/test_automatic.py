@@ -47,7 +47,7 @@ def test_the_map_to_the_mirror_image_reverses_orientation_and_nothing_else(shape
     assert found.score < map_quality(np.eye(60), here, here).score - 1.5
 
 
-def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
+def test_a_torn_map_has_more_local_distortion_than_a_noisy_one(shape):
     """Half of the shape turned over: few pairs of neighbours change, those at the tear by much."""
     judge = sample_for_scoring(shape, 300)
     places = judge.positions
@@ -60,7 +60,7 @@ def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
     assert broken.local_distortion > whole.local_distortion + 0.1
 
 
-def test_stretch_counts_short_distances_alone():
+def test_local_distortion_counts_short_distances_alone():
     distances = np.abs(np.subtract.outer(*[np.array([0.0, 0.1, 0.2, 1.0, 1.1])] * 2))
     short = distances <= 0.2
     near = ShortDistances.of(distances)
@@ -105,7 +105,7 @@ def test_quality_is_what_its_definition_says(shape, other):
     assert found.distortion == pytest.approx(change / (here.distances.mean() + there.distances.mean()), rel=1e-6)
 
 
-def test_few_samples_of_a_probe_are_a_probe(shape):
+def test_a_subsample_is_a_sample(shape):
     judge = sample_for_scoring(shape, 300)
     few = subsample(judge, 120)
     np.testing.assert_array_equal(few.samples.vertices, judge.samples.vertices[:120])

@@ -56,7 +56,7 @@ def _arrays_of(record: Any, before: str = "") -> dict[str, Any]:
     return found
 
 
-def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
+def test_cached_samples_change_no_bit(tmp_path: Path) -> None:
     config = replace(CONFIG, search=Search(candidates=1, n_sign_functions=2), threads=1)
     a, b = (prepare(bent(i, 300), config, name=str(i)) for i in (0, 1))
     entry = tmp_path / "a.npz"

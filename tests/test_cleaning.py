@@ -118,7 +118,7 @@ def test_surfaces_that_only_touch_stay_apart() -> None:
 
 
 @pytest.mark.parametrize("cut", [soup, seamed])
-def test_cut_copies_have_the_map_of_the_whole(plain, cut) -> None:
+def test_vertices_doubled_along_a_cut_have_the_map_of_the_whole(plain, cut) -> None:
     (pieces_s, was_s), (pieces_t, was_t) = cut(plain.source), cut(plain.target)
     marks = [[np.flatnonzero(was == v)[-1] for v in at] for was, at in zip((was_s, was_t), MARKS.T, strict=True)]
     with pytest.warns(KfmapsWarning, match="vertices on seams are connected; the numbering is kept"):
@@ -135,7 +135,7 @@ def test_cut_copies_have_the_map_of_the_whole(plain, cut) -> None:
     np.testing.assert_array_equal(other.functional_map, again.functional_map)
 
 
-def test_landmarks_on_copies_of_one_vertex_are_refused() -> None:
+def test_landmarks_on_duplicates_of_one_vertex_are_refused() -> None:
     pieces, was = soup(blob(300))
     copies = np.flatnonzero(was == 7)[:2]
     marks = np.stack([copies, [3, 40]], axis=1)
@@ -143,7 +143,7 @@ def test_landmarks_on_copies_of_one_vertex_are_refused() -> None:
         quietly(match, pieces, blob(300), SMALL, landmarks=marks)
 
 
-def test_litter_changes_no_bit_of_the_rest(plain) -> None:
+def test_specks_change_no_bit_of_the_rest(plain) -> None:
     dirty = littered(plain.source), littered(plain.target)
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
@@ -178,7 +178,7 @@ def test_descriptors_of_what_is_left_out_change_nothing() -> None:
         quietly(match, a, b, config, descriptors=(source.vertices, given[1]))
 
 
-def test_litter_is_not_trusted_and_covers_nothing() -> None:
+def test_specks_have_no_confidence_and_cover_nothing() -> None:
     mesh = littered(blob(400))
     n = len(mesh.vertices)
     trust = local_confidence(mesh, mesh, np.arange(n))

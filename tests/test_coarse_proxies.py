@@ -10,7 +10,7 @@ from kfmaps.geometry.arap import build_arap, rotations
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, embedded_deformation, spread_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.registration import nonrigid_icp as nonrigid
+from kfmaps.registration import nonrigid_icp
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarsen", "kfmaps.registration.nonrigid_icp")
@@ -31,7 +31,7 @@ def copy(mesh: Mesh) -> CoarseProxy:
     return coarse_proxy(mesh, spread_vertices(mesh, 600, np.array([7, 2000])))
 
 
-def test_every_vertex_belongs_to_the_nearest_of_the_copy(mesh: Mesh, copy: CoarseProxy) -> None:
+def test_every_vertex_belongs_to_the_nearest_vertex_of_the_proxy(mesh: Mesh, copy: CoarseProxy) -> None:
     assert 550 < len(copy.vertices) < 620
     assert np.isin([7, 2000], copy.vertices).all()
     np.testing.assert_array_equal(copy.owner[copy.vertices], np.arange(len(copy.vertices)))
@@ -41,7 +41,7 @@ def test_every_vertex_belongs_to_the_nearest_of_the_copy(mesh: Mesh, copy: Coars
     np.testing.assert_allclose(away[copy.owner, np.arange(len(mesh.vertices))], away.min(axis=0))
 
 
-def test_a_small_mesh_is_its_own_copy(mesh: Mesh) -> None:
+def test_a_small_mesh_is_its_own_proxy(mesh: Mesh) -> None:
     copy = coarse_proxy(mesh, spread_vertices(mesh, 3000))
     assert copy.mesh is mesh
     np.testing.assert_array_equal(copy.owner, np.arange(3000))
@@ -56,14 +56,14 @@ def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(mesh: Mesh
         assert copy.owner[vertex] == away.argmin()
 
 
-def test_a_motion_of_the_copy_is_that_of_the_mesh(mesh: Mesh, copy: CoarseProxy) -> None:
+def test_a_motion_of_the_proxy_is_that_of_the_mesh(mesh: Mesh, copy: CoarseProxy) -> None:
     turn = rotation(0)
     turns = np.broadcast_to(turn, (len(copy.vertices), 3, 3))
     moved = embedded_deformation(copy, mesh, copy.mesh.vertices @ turn.T + 1.0, turns)
     np.testing.assert_allclose(moved, mesh.vertices @ turn.T + 1.0, atol=1e-12)
 
 
-def test_a_mesh_bends_as_its_copy_does(mesh: Mesh, copy: CoarseProxy) -> None:
+def test_a_mesh_deforms_as_its_proxy_does(mesh: Mesh, copy: CoarseProxy) -> None:
     def bent(x: np.ndarray) -> np.ndarray:
         angle = 1.5 * x[:, 1]
         turned = np.cos(angle) * x[:, 0] - np.sin(angle) * x[:, 2], np.sin(angle) * x[:, 0] + np.cos(angle) * x[:, 2]
@@ -77,7 +77,7 @@ def test_a_mesh_bends_as_its_copy_does(mesh: Mesh, copy: CoarseProxy) -> None:
     assert off.max() < 0.5 * snapped.max()
 
 
-def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(
+def test_a_large_mesh_is_registered_as_well_with_its_proxy_first(
     pair: datasets.ExamplePair, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     source, target = unit_area(pair.source), unit_area(pair.target)
@@ -94,8 +94,8 @@ def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(
         return np.linalg.norm(places - truth, axis=1), found.gap
 
     whole, gap = off()
-    monkeypatch.setattr(nonrigid, "_PROXY_FROM", 2000)
-    monkeypatch.setattr(nonrigid, "_PROXY_VERTICES", 1500)
+    monkeypatch.setattr(nonrigid_icp, "_PROXY_FROM", 2000)
+    monkeypatch.setattr(nonrigid_icp, "_PROXY_VERTICES", 1500)
     quick, quick_gap = off()
     assert quick.mean() < 1.1 * whole.mean() < 0.6 * np.linalg.norm(source.vertices[start] - truth, axis=1).mean()
     assert quick_gap < 1.1 * gap

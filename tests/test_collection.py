@@ -311,7 +311,7 @@ def test_what_turns_inside_out_contradicts_itself() -> None:
     assert reversed_one.reversed
 
 
-def test_hands_agree_with_most() -> None:
+def test_mirror_decisions_agree_with_most() -> None:
     truth = np.array([1, 1, -1, 1, -1, -1, 1])
     pairs = complete_graph(7)
     kept = [truth[a] == truth[b] for a, b in pairs]

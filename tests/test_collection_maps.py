@@ -27,7 +27,7 @@ def shapes() -> list[Shape]:
     return [prepare(bent(i, N), LOCAL, name=str(i)) for i in range(3)]
 
 
-def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
+def test_the_true_map_has_the_best_score(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     probes = scoring_samples(a), scoring_samples(b)
     rng = np.random.default_rng(0)

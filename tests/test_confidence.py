@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from conftest import NO_FACES, blob, cloud_of, joined, reordered, rotation, shifted, two_poses
 from kfmaps._arrays import InvalidInput
-from kfmaps.fmap import confidence as module
+from kfmaps.fmap import confidence
 from kfmaps.fmap.confidence import _RADIUS, approximate_geodesics, local_confidence
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
@@ -70,8 +70,8 @@ def test_a_map_that_does_not_fit_is_refused() -> None:
 
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:
-    monkeypatch.setattr(module, "_MAX_EXACT", 1000)
-    monkeypatch.setattr(module, "_PROXY_VERTICES", points)
+    monkeypatch.setattr(confidence, "_MAX_EXACT", 1000)
+    monkeypatch.setattr(confidence, "_PROXY_VERTICES", points)
 
 
 def test_distances_are_nearly_those_of_all_edges(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -34,7 +34,7 @@ def run(C, basis, weight, led):
     return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, guide=led).functional_map
 
 
-def test_without_weight_or_guide_it_is_plain_zoomout(symmetric):
+def test_without_weight_or_guidance_it_is_plain_zoomout(symmetric):
     basis, places = symmetric
     start = np.diag([1.0, 1, -1, 1, 1, -1])
     plain = ZoomOut(6, 40, 4)(start, basis, basis).functional_map
@@ -55,7 +55,7 @@ def test_descriptors_lead_from_the_wrong_signs_to_the_right_map(symmetric):
     assert error(run(wrong, basis, 12.0, descriptor_guidance(places, places))) < 0.02
 
 
-def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
+def test_on_samples_of_large_shapes_the_guidance_is_sampled_too():
     mesh = unit_area(blob(900))
     basis = laplace_basis(mesh, 50)
     zoom = ZoomOut(6, 40, 8, samples=200, descriptor_weight=12.0)
@@ -64,7 +64,7 @@ def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
     assert np.linalg.norm(mesh.vertices[found.target_to_source] - mesh.vertices, axis=1).mean() < 0.02
 
 
-def test_a_guide_is_scaled_common_and_short():
+def test_guidance_is_scaled_shared_and_truncated():
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=(200, 50)) * 7, rng.normal(size=(150, 50)) * 7
     guides: Any = descriptor_guidance(a, b, dimensions=50), descriptor_guidance(a, b)

@@ -64,14 +64,14 @@ def test_pytorch_agrees_with_numpy(name, where, pair):
 
 def test_the_work_is_done_on_the_device(pair, monkeypatch):
     seen = []
-    from kfmaps.fmap import minimize as pipeline
+    from kfmaps.fmap import minimize
 
-    original = pipeline.solve
+    original = minimize.solve
 
     def spy(apply, b, *args, **kwargs):
         seen.append(type(b))
         return original(apply, b, *args, **kwargs)
 
-    monkeypatch.setattr(pipeline, "solve", spy)
+    monkeypatch.setattr(minimize, "solve", spy)
     match(pair[0], pair[1], replace(CONFIG, device="torch", refinement=None), landmarks=[[0, 0]])
     assert seen == [torch.Tensor]

@@ -21,7 +21,7 @@ from matplotlib import pyplot
 import kfmaps
 from commandline import run
 from kfmaps.config import Config
-from kfmaps.matching import match as matching
+from kfmaps.matching import match as match_module
 from kfmaps.matching.result_groups import MatchScore
 from kfmaps.viz.server import LocalServer
 
@@ -45,7 +45,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def answer(made: Path) -> matching.Match:
+def answer(made: Path) -> match_module.Match:
     """A map between the two shapes, quickly made: what is tried is the lines, not the map."""
     config = replace(
         Config.single_fit(),
@@ -54,19 +54,19 @@ def answer(made: Path) -> matching.Match:
         refinement=None,
     )
     pair = [kfmaps.read_mesh(made / name) for name in ("a.ply", "b.ply")]
-    found = matching.match(pair[0], pair[1], config, landmarks=kfmaps.read_landmarks(made / "pairs.txt"))
+    found = match_module.match(pair[0], pair[1], config, landmarks=kfmaps.read_landmarks(made / "pairs.txt"))
     rng = np.random.default_rng(0)
     rough = np.where(rng.random(len(found.target_to_source)) < 0.1, 0, found.target_to_source)
     return replace(found, verdict="ambiguous", confidence=0.4, score=MatchScore((-1.0, -1.1)), alternatives=(rough,))
 
 
 @pytest.fixture
-def place(made: Path, answer: matching.Match, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def place(made: Path, answer: match_module.Match, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the shapes, in which a match is the one that is made already and no browser opens."""
     for path in made.iterdir():
         shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(matching, "match", lambda *_, **__: answer)
+    monkeypatch.setattr(match_module, "match", lambda *_, **__: answer)
     monkeypatch.setattr(webbrowser, "open", lambda _: True)
     monkeypatch.setattr(LocalServer, "serve_forever", lambda *_, **__: None)
     return tmp_path

@@ -12,9 +12,7 @@ from scipy.sparse.linalg import splu
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, NotConverged
 from kfmaps._threads import limit_threads, one_blas_thread
-from kfmaps.geometry.eigen import eigensolver as eigensolver
-from kfmaps.geometry.eigen import factorization as _factor
-from kfmaps.geometry.eigen import lanczos as _lanczos
+from kfmaps.geometry.eigen import eigensolver, factorization, lanczos
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 from kfmaps.geometry.mesh import Mesh, unit_area
 
@@ -40,11 +38,11 @@ def square_grid(side: int) -> tuple[csr_array, np.ndarray, np.ndarray]:
     return stiffness, np.ones(side**2), np.sort(np.add.outer(values, values).ravel())
 
 
-def largest(spectrum: np.ndarray, k: int) -> _lanczos._ConvergedPairs:
+def largest(spectrum: np.ndarray, k: int) -> lanczos._ConvergedPairs:
     """Largest eigenpairs of the diagonal matrix."""
     with one_blas_thread():
         rng = np.random.default_rng(3)
-        return _lanczos.largest_eigenpairs(lambda x: spectrum[:, None] * x, len(spectrum), k, tolerance=1e-10, rng=rng)
+        return lanczos.largest_eigenpairs(lambda x: spectrum[:, None] * x, len(spectrum), k, tolerance=1e-10, rng=rng)
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +113,7 @@ def test_lanczos_repairs_a_loss_of_orthogonality() -> None:
 def test_orderings_agree(shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pymetis")
     one = smallest_eigenpairs(*shape, 40)
-    monkeypatch.setattr(_factor, "find_spec", lambda _: None)
+    monkeypatch.setattr(factorization, "find_spec", lambda _: None)
     other = smallest_eigenpairs(*shape, 40)
     np.testing.assert_allclose(one.values, other.values, rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(one.vectors, other.vectors, atol=1e-6)
@@ -125,7 +123,7 @@ def test_threads_change_no_bit_and_the_seed_nothing_but_rounding(
     shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(eigensolver, "THREADED", 0)
-    monkeypatch.setattr(_lanczos, "_ROWS", 128)
+    monkeypatch.setattr(lanczos, "_ROWS", 128)
     found = []
     for threads, seed in ((1, 0), (3, 0), (1, 1)):
         with limit_threads(threads):
@@ -198,8 +196,8 @@ def test_shifted_matrices_are_factorised_in_one_order(monkeypatch: pytest.Monkey
         fill.append(factor.L.nnz)
         return factor
 
-    monkeypatch.setattr(_factor, "splu", counted)
-    factorize, rng = _factor.ShiftedFactorizer(stiffness), np.random.default_rng(0)
+    monkeypatch.setattr(factorization, "splu", counted)
+    factorize, rng = factorization.ShiftedFactorizer(stiffness), np.random.default_rng(0)
     for scale in (1.0, 3.0):
         diagonal, wanted = rng.uniform(1, 2, 901), rng.normal(size=(901, 5))
         right = scale * (stiffness @ wanted) + diagonal[:, None] * wanted
@@ -215,6 +213,6 @@ def test_the_next_look_is_where_the_residual_will_have_converged() -> None:
     """It falls geometrically; at first nothing is known, and no step is longer than half of the wanted pairs."""
     now = (200, 1e-3)
     for blocks, tolerance in ((1, 3.2e-4), (2, 1e-4), (6, 1e-6)):
-        assert _lanczos._steps((184, 1e-2), now, 400, tolerance) == blocks
-    assert _lanczos._steps((184, 1e-2), now, 400, 1e-30) == 400 // (2 * _lanczos.WIDTH)
-    assert _lanczos._steps(None, now, 400, 1e-6) == _lanczos._steps(now, (216, 1e-2), 400, 1e-6) == 10
+        assert lanczos._steps((184, 1e-2), now, 400, tolerance) == blocks
+    assert lanczos._steps((184, 1e-2), now, 400, 1e-30) == 400 // (2 * lanczos.WIDTH)
+    assert lanczos._steps(None, now, 400, 1e-6) == lanczos._steps(now, (216, 1e-2), 400, 1e-6) == 10

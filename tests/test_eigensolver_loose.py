@@ -7,9 +7,9 @@ import pytest
 from scipy.sparse import csr_array
 
 from conftest import blob
-from kfmaps import shape as prepared
+from kfmaps import shape as shape_module
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.eigen import eigensolver as pencil
+from kfmaps.geometry.eigen import eigensolver as eigensolver_module
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 from kfmaps.geometry.mesh import unit_area
 from test_eigensolver import operators
@@ -49,7 +49,7 @@ def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: p
     loose = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2)
     exact = smallest_eigenpairs(csr_array(rough), mass, 40)
     assert np.array_equal(loose.values, exact.values)
-    monkeypatch.setattr(pencil, "_MAX_LOOSE_RESIDUAL", np.inf)
+    monkeypatch.setattr(eigensolver_module, "_MAX_LOOSE_RESIDUAL", np.inf)
     again = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2)
     assert np.array_equal(again.values, exact.values)
 
@@ -61,8 +61,8 @@ def test_only_large_shapes_are_prepared_loosely(monkeypatch: pytest.MonkeyPatch)
         asked.append(float(more.get("tolerance", 1e-10)))  # pyright: ignore[reportArgumentType]
         return laplace_basis(*args, **more)  # pyright: ignore[reportArgumentType]
 
-    monkeypatch.setattr(prepared, "laplace_basis", spy)
+    monkeypatch.setattr(shape_module, "laplace_basis", spy)
     for limit in (1000, 999):
-        monkeypatch.setattr(prepared, "EXACT_EIGENPAIRS", limit)
-        prepared.prepare(blob(1000))
+        monkeypatch.setattr(shape_module, "EXACT_EIGENPAIRS", limit)
+        shape_module.prepare(blob(1000))
     assert asked == [1e-10, 1e-2]

@@ -108,7 +108,7 @@ def test_laws(name, case, asarray, convert, rng):
 
 
 @pytest.mark.parametrize("parity", [1, -1])
-def test_slices_in_single_precision(parity, rng):
+def test_multiplication_operators_in_single_precision(parity, rng):
     """Only the products that couple both sides are rounded; conjugate gradients reach 1e-6 of the right-hand side."""
     S = [X + parity * X.transpose(0, 2, 1) for X in (rng.normal(size=(6, k, k)) for k in (K_S, K_T))]
     rounded, exact = (operator_term(*S, parity=parity, single=single) for single in (True, False))
@@ -122,7 +122,7 @@ def test_slices_in_single_precision(parity, rng):
 
 
 @pytest.mark.parametrize("kernel", [Linear(), Polynomial(2, 0.5), Gaussian(0.4)], ids=repr)
-def test_hadamard_form_equals_slices_of_the_features(kernel, case):
+def test_hadamard_form_equals_multiplication_operators_of_the_features(kernel, case):
     """Equations (10) to (12): with all points as samples the features give the exact kernel."""
     source, target, P_s, P_t, C = case
     factor = nystrom(kernel, np.vstack([P_s, P_t]), rtol=1e-14)
@@ -138,7 +138,7 @@ def test_hadamard_form_equals_slices_of_the_features(kernel, case):
     assert features.constant() == pytest.approx(exact.constant(), rel=1e-6)
 
 
-def test_slices_are_packed_and_unpacked(case, asarray, convert):
+def test_multiplication_operators_are_packed_and_unpacked(case, asarray, convert):
     source, _, W, _, _ = case
     packed = multiplication_operators(convert(source), asarray(W), block=4)
     wanted = explicit_slices(source, W)
@@ -154,7 +154,7 @@ def test_slices_are_packed_and_unpacked(case, asarray, convert):
     assert 0.0 < off < 4 * 6e-8
 
 
-def test_compression_is_exact_for_redundant_features_and_bounded_otherwise(case, rng):
+def test_truncation_is_exact_for_redundant_features_and_bounded_otherwise(case, rng):
     source, target, W_s, W_t, C = case
     mix = rng.normal(size=(D, 9))
     redundant = [multiplication_operators(b, W @ mix) for b, W in ((source, W_s), (target, W_t))]

@@ -33,7 +33,7 @@ from kfmaps.matching.sample_pair import paired_map, two_level_samples
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import find_self_maps
 from kfmaps.registration.alternating_registration import proxy_pair
-from kfmaps.registration.evidence import _MAX_ENERGY, MIN_ENERGY, PATIENT, coarse_copy, deform
+from kfmaps.registration.evidence import _MAX_ENERGY, MIN_ENERGY, PATIENT, deform, shape_proxy
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
 
@@ -63,14 +63,14 @@ SIGNS = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
 @pytest.fixture
 def itself(creature, probes):
     """Copies of one creature, to be bent onto each other."""
-    return proxy_pair(creature[0], creature[0], (probes[0].copy, probes[0].copy))
+    return proxy_pair(creature[0], creature[0], (probes[0].proxy, probes[0].proxy))
 
 
 def identity(count):
     return ExtremityMatch(np.arange(count), np.arange(count))
 
 
-def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
+def test_extremities_are_far_from_everything_around_them_and_from_each_other(probes):
     for one in probes:
         between = one.distances[np.ix_(one.extremities.points, one.extremities.points)]
         assert len(one.extremities.points) >= 5
@@ -82,7 +82,7 @@ def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
         )
 
 
-def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
+def test_extremities_do_not_depend_on_units_position_and_numbering(creature, probes):
     shape, one = creature[0], probes[0]
     order = np.random.default_rng(0).permutation(len(shape.mesh.vertices))
     moved = reordered(Mesh(shape.mesh.vertices @ rotation(1).T + 5.0, shape.mesh.faces), order)
@@ -118,7 +118,7 @@ def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
     assert extremity_features(one, whole.source).shape == (len(one.distances[0]), m + m * (m - 1) // 2)
 
 
-def test_the_true_pairing_is_among_the_first(creature, probes, on):
+def test_the_true_extremity_match_is_among_the_first(creature, probes, on):
     found = match_extremities(on.coarse.source, on.coarse.target, on.coarse.descriptor_cost)
     a, b = probes[0], probes[1]
     truth = creature[2]
@@ -132,7 +132,7 @@ def test_the_true_pairing_is_among_the_first(creature, probes, on):
     assert all(len(set(p.target)) == len(p.target) == len(p.source) for p in found)
 
 
-def test_equal_shapes_pair_their_tips_with_themselves(probes):
+def test_extremities_of_equal_shapes_match_themselves(probes):
     one = probes[0]
     first = similar_matches(one, one)[0]
     assert np.array_equal(first.source, first.target)
@@ -151,7 +151,7 @@ def test_of_five_extremities_one_may_be_left_out(probes, count, sizes):
     assert {len(m.source) for m in similar_matches(*[replace(one, extremities=few)] * 2)} == sizes
 
 
-def test_distances_between_tips_alone_pair_them(probes):
+def test_distances_between_extremities_alone_match_them(probes):
     one = probes[0]
     plain = replace(
         one,
@@ -166,7 +166,7 @@ def test_distances_between_tips_alone_pair_them(probes):
     assert np.array_equal(order[first.target], first.source)
 
 
-def test_shapes_without_limbs_are_not_paired(probes):
+def test_shapes_without_extremities_are_not_matched_by_them(probes):
     one = probes[0]
     bare = replace(one, extremities=one.extremities.removed())
     assert match_extremities(one, bare, None) == []
@@ -175,14 +175,14 @@ def test_shapes_without_limbs_are_not_paired(probes):
     assert match_extremities(replace(one, extremities=few), one, None) == []
 
 
-def test_the_map_of_a_pairing_is_nearly_the_identity(on):
+def test_the_map_of_an_extremity_match_is_nearly_the_identity(on):
     few = replace(on.coarse, target=on.coarse.source, descriptor_cost=None)
     k = 8
     C = paired_map(identity(len(few.source.extremities.points)), few, k)
     assert np.linalg.norm(C - np.eye(k)) < 0.5
 
 
-def test_pairings_find_the_map_between_bodies_of_other_proportions(creature, on):
+def test_extremity_matches_find_the_map_between_bodies_of_other_proportions(creature, on):
     found = refine_coarse(extremity_inits(40, on.coarse), on.coarse, 40)
     best = max(found, key=lambda c: c.score)
     truth = creature[2][on.coarse.target.samples.vertices]
@@ -208,7 +208,7 @@ def test_each_map_may_have_evidence_of_its_own(on):
     )
 
 
-def test_a_shape_bends_least_onto_itself(itself):
+def test_a_shape_deforms_least_onto_itself(itself):
     """Strain is of all places and not of the worst: the mean of logarithms is below the logarithm of the mean."""
     kept, torn = (deform(C, itself) for C in (np.eye(40), SIGNS))
     assert kept.energy == MIN_ENERGY < 0.05 < torn.energy <= _MAX_ENERGY
@@ -220,23 +220,23 @@ def test_limbs_of_different_lengths_leave_no_symmetry(probes):
     assert find_self_maps(subsample(probes[1], 400), 100) == []
 
 
-def test_copies_have_no_loose_points(creature):
+def test_coarse_proxies_have_no_unreferenced_vertices(creature):
     shape = creature[0]
     loose = replace(shape, mesh=Mesh(np.vstack([shape.mesh.vertices, [[9.0, 9.0, 9.0]]]), shape.mesh.faces))
-    found = coarse_copy(loose, len(loose.mesh.vertices))
+    found = shape_proxy(loose, len(loose.mesh.vertices))
     assert isinstance(found, CoarseProxy)
     assert len(found.mesh.vertices) == len(shape.mesh.vertices)
-    fewer = coarse_copy(loose, 500)
+    fewer = shape_proxy(loose, 500)
     assert isinstance(fewer, CoarseProxy)
     assert len(fewer.mesh.vertices) <= 500
     assert np.array_equal(np.unique(fewer.mesh.faces), np.arange(len(fewer.mesh.vertices)))
-    assert coarse_copy(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
+    assert shape_proxy(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
     turned = found.mirrored().mesh
     assert turned.vertices[:, 0] == pytest.approx(-found.mesh.vertices[:, 0])
     assert np.array_equal(turned.faces[:, ::-1], found.mesh.faces)
 
 
-def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
+def test_a_candidate_that_deforms_less_comes_first_and_one_not_registered_never(creature, on):
     found = refine_coarse(extremity_inits(40, on.coarse), on.coarse, 40)
     ranked = ranking(found, on.fine, ProxyCache.of(creature[0], creature[1], on.fine))
     scores = [c.score for c in ranked]
@@ -247,14 +247,14 @@ def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
     assert equal[0].score < equal[1].score
 
 
-def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
+def test_samples_of_a_mirror_image_have_the_opposite_orientation(probes):
     turned: Any = mirror_samples(probes[0])
     assert turned.mirrored
     assert np.array_equal(turned.extremities.gradient_cross, -probes[0].extremities.gradient_cross)
-    assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
+    assert turned.proxy.mesh.vertices[:, 0] == pytest.approx(-probes[0].proxy.mesh.vertices[:, 0])
 
 
-def test_tips_can_be_left_out(creature):
+def test_extremities_can_be_left_out(creature):
     plain = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, match_extremities=False))
     assert not search_map(creature[0], creature[1], plain, rng=0).initialization.startswith("extremities")
 
@@ -273,11 +273,11 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     assert kept.verdict != "sure"
 
 
-def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monkeypatch):
+def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, probes, monkeypatch):
     """The other direction is believed then; only a map of which both fail has the most."""
 
     def energy() -> float:  # a pair keeps what it has found
-        return deform(SIGNS, proxy_pair(creature[0], creature[0], (probes[0].copy, probes[0].copy))).energy
+        return deform(SIGNS, proxy_pair(creature[0], creature[0], (probes[0].proxy, probes[0].proxy))).energy
 
     usual, fit = energy(), NonRigid.bent
     failing = [True, False]
@@ -293,7 +293,7 @@ def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monke
     assert energy() == _MAX_ENERGY
 
 
-def test_a_map_that_is_judged_again_is_bent_once(itself, monkeypatch):
+def test_a_map_that_is_scored_again_is_registered_once(itself, monkeypatch):
     fits = []
     kept = lambda _self, pair, points: (fits.append(points) or pair.body.mesh.vertices, 0.0)  # noqa: E731
     monkeypatch.setattr(NonRigid, "bent", kept)

@@ -245,7 +245,7 @@ def test_a_point_in_parts_condenses_as_a_whole(rng):
 
 
 @pytest.mark.parametrize("strong", [0, 1])
-def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, rng):
+def test_truncation_drops_as_much_as_its_tolerance_allows_and_no_more(strong, rng):
     """Of the slices of both shapes together, wherever the strong ones are."""
     packed = [rng.normal(size=(12, 15)) * 0.6 ** np.arange(12)[:, None] for _ in range(2)]
     packed[strong][::-1] *= 5 * 0.8 ** np.arange(12)[:, None]
@@ -316,7 +316,7 @@ def test_zoomout_starts_from_the_low_part_of_the_map(small_basis, rng):
 
 
 @pytest.mark.parametrize("area", [1.0, 9.0])
-def test_a_guide_weighs_what_it_says_on_a_shape_of_any_size(area, rng):
+def test_guidance_has_its_weight_on_a_shape_of_any_size(area, rng):
     """Squared differences of functions are in 1/area; those of the descriptors beside them are too."""
     source, target = (replace(b, mass=area * b.mass / b.mass.sum()) for b in [random_basis(60, 4, rng)] * 2)
     led: Any = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
@@ -324,7 +324,7 @@ def test_a_guide_weighs_what_it_says_on_a_shape_of_any_size(area, rng):
     assert _squared_distances(both, both).mean() * area == pytest.approx(12)
 
 
-def test_cells_compare_points_of_any_length(rng):
+def test_approximate_nearest_compares_points_of_any_length(rng):
     """Half the square of a point belongs to its distance: without it the longest would always win."""
     points = rng.normal(size=(400, 12)) * 10.0 ** rng.uniform(-2, 1, (400, 1))
     queries = points[rng.permutation(400)[:100]] * (1 + 1e-3 * rng.normal(size=(100, 12)))

@@ -178,7 +178,7 @@ def test_heat_around_a_landmark_is_that_of_its_time(shape):
         np.testing.assert_allclose(found[0, :, i], heat[:, 0, i] / np.sqrt(own[3] * own), rtol=1e-8, atol=1e-12)
 
 
-def test_confidence_follows_from_score_bending_and_margin(shape):
+def test_probability_follows_from_score_deformation_and_margin(shape):
     """The probability of docs/mathematics.md, and the scores: bending counts against them by five times its logarithm.
 
     Without tips, at which descriptors would count too.

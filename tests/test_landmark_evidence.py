@@ -16,10 +16,8 @@ from conftest import SMALL, blob, functional_map
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, unit_area
 from kfmaps.geometry.sampling import stratified_vertices
-from kfmaps.matching import landmark_conflicts, search_result
-from kfmaps.matching import match as matching
-from kfmaps.matching import registration_refine as mending
-from kfmaps.matching import search as choose
+from kfmaps.matching import landmark_conflicts, match, registration_refine, search_result
+from kfmaps.matching import search as search_module
 from kfmaps.matching.candidates import rerefine, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.landmark_conflicts import ignore_landmarks, support_of_landmarks
@@ -33,14 +31,14 @@ from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, landmark_support, max_landmark_error, probability, rejected_landmarks, verdict
 from kfmaps.matching.search import search_map
 from kfmaps.matching.search_result import SearchResult
-from kfmaps.registration import nonrigid_icp as nonrigid
+from kfmaps.registration import nonrigid_icp
 from kfmaps.registration.alternating_registration import (
     AlternatingResult,
     alternating_registration,
     proxy_pair,
 )
 from kfmaps.registration.deformable import LANDMARK_PULL, deformable_mesh, landmark_pull
-from kfmaps.registration.evidence import coarse_copy
+from kfmaps.registration.evidence import shape_proxy
 from kfmaps.registration.nonrigid_icp import _SCALED_LANDMARK_PULL, NonRigid
 from kfmaps.shape import mirror_image
 
@@ -55,14 +53,14 @@ def spread_out(creatures: Any, count: int) -> np.ndarray:
 
 def copies(creatures: Any, *counts: int) -> Any:
     """Coarse copies of both, of so many vertices."""
-    return [coarse_copy(shape, count) for shape, count in zip(creatures[:2], counts, strict=True)]
+    return [shape_proxy(shape, count) for shape, count in zip(creatures[:2], counts, strict=True)]
 
 
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
     C = functional_map(creatures[2], *creatures[:2])
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].fine))
-    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=-np.inf))
+    monkeypatch.setattr(search_module, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].fine))
+    monkeypatch.setattr(search_module, "SCORE", replace(SCORE, repair_score=-np.inf))
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +81,7 @@ def given(creatures: Any, count: int) -> Any:
     return two_level_samples(source, target, judges, at).fine
 
 
-def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
+def test_a_map_is_supported_by_landmarks_that_did_not_guide_it(creatures, slid) -> None:
     on = given(creatures, 10)
     maps = functional_map(creatures[2], *creatures[:2]), slid
     right, wrong = (score_maps([Start("a", C)], on)[0] for C in maps)
@@ -109,25 +107,25 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
     monkeypatch.setattr(search_result, "verdict", partial(verdict, numbers=harder))
     config = replace(kfmaps.Config(), threads=1)
     without, backed = (
-        choose.search_map(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40))
+        search_module.search_map(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40))
     )
     assert (without.verdict, backed.verdict) == ("unlikely", "sure")
     assert (without.confidence or 1) < 0.1 < SCORE.calibration.sure < (backed.confidence or 0)
 
 
-def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypatch) -> None:
+def test_a_landmark_that_the_map_keeps_to_is_rejected_no_longer(creatures, monkeypatch) -> None:
     """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    monkeypatch.setattr(choose, "contradicted_landmarks", lambda _state: (np.arange(10) < 2, ()))
+    monkeypatch.setattr(search_module, "contradicted_landmarks", lambda _state: (np.arange(10) < 2, ()))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
-    found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
+    found = search_module.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
     assert found.rejected_landmarks.tolist() == [1]
     np.testing.assert_array_equal(found.landmarks, np.delete(at, 1, axis=0))
 
 
-def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
+def test_proxies_have_the_vertices_nearest_to_landmarks(creatures) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 30)
     a, b = copies(creatures, 500, 400)
@@ -140,7 +138,7 @@ def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
         assert 0 < chosen.max() < 0.1
     image = proxy_pair(source, mirror_image(target), (a, b.mirrored()))
     np.testing.assert_array_equal(image.nearest(at), marks)
-    there = image.copies[1].mesh.vertices[marks[:, 1]]
+    there = image.proxies[1].mesh.vertices[marks[:, 1]]
     assert np.linalg.norm(there - target.mesh.vertices[at[:, 1]] * MIRROR, axis=1).max() < 0.1
     np.testing.assert_array_equal(on.swapped().nearest(at[:, ::-1]), marks[:, ::-1])
     assert on.nearest(at[:0]).shape == (0, 2)
@@ -171,7 +169,7 @@ def followed(off: float, fit: NonRigid) -> float:
     return 1 - float(np.linalg.norm(bent[3] - body.vertices[to]) / from_there[to])
 
 
-def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -> None:
+def test_locally_scaled_limbs_follow_landmarks_that_are_far_off(monkeypatch) -> None:
     """Over an area as large as all of it nothing else is stretched: what differs is how landmarks hold."""
     plain = NonRigid(stiffness=5e-3, n_levels=1, steps=4)
     loose = replace(plain, local_scaling=100.0)
@@ -180,9 +178,9 @@ def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -
     assert 1 - ways[100.0, near] < 0.7 * (1 - ways[0.0, near])
     assert ways[100.0, far] > 0.9
     assert ways[0.0, far] < 0.5
-    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", (LANDMARK_PULL[0], _SCALED_LANDMARK_PULL[1]))
+    monkeypatch.setattr(nonrigid_icp, "_SCALED_LANDMARK_PULL", (LANDMARK_PULL[0], _SCALED_LANDMARK_PULL[1]))
     assert 1 - followed(near, loose) > 1.3 * (1 - ways[100.0, near])
-    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", LANDMARK_PULL)
+    monkeypatch.setattr(nonrigid_icp, "_SCALED_LANDMARK_PULL", LANDMARK_PULL)
     assert followed(far, loose) < 0.5
 
 
@@ -202,7 +200,7 @@ def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
 
 
 @pytest.mark.parametrize("lead", [LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE])
-def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
+def test_landmarks_guide_by_their_weight(creatures, lead) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 3)
     guides: Any = [build_guidance(source, target, some, None, None, lead) for some in (at[:0], at)]
@@ -217,23 +215,23 @@ def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
             assert 2 * ((both - both.mean(axis=0)) ** 2).sum(axis=1).mean() == pytest.approx(LANDMARK_WEIGHT)
 
 
-def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) -> None:
+def test_landmarks_guide_less_where_shapes_differ_much(creatures, monkeypatch) -> None:
     source, target, _ = creatures
     asked = []
-    monkeypatch.setattr(matching, "build_guidance", lambda *_a, lead, **_m: asked.append(lead))
+    monkeypatch.setattr(match, "build_guidance", lambda *_a, lead, **_m: asked.append(lead))
     found = SearchResult(np.eye(3), "a", None, "unlikely")
     for quality in (None, SCORE.non_isometric_score, SCORE.non_isometric_score - 1):
         assert replace(found, quality=quality).is_near_isometric == (quality != SCORE.non_isometric_score - 1)
-        assert matching._search_guidance(replace(found, quality=quality), (source, target)) is None
+        assert match._search_guidance(replace(found, quality=quality), (source, target)) is None
     assert asked == [LANDMARK_WEIGHT, LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE]
 
 
-def test_what_is_mended_keeps_to_landmarks(creatures, judged, monkeypatch) -> None:
-    monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
-    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    ranked = [replace(judged.right, deformation_energy=1.0)]
+def test_a_repaired_map_keeps_to_landmarks(creatures, creature_pair, monkeypatch) -> None:
+    monkeypatch.setattr(registration_refine, "registered_shot_error", lambda *_what: 0.2)
+    monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
+    ranked = [replace(creature_pair.right, deformation_energy=1.0)]
     at = spread_out(creatures, 4)
-    begun, leads, usual = [], [], mending.build_guidance
+    begun, leads, usual = [], [], registration_refine.build_guidance
 
     def lead(*what: Any) -> Any:
         leads.append((what[2], what[5]))
@@ -243,9 +241,9 @@ def test_what_is_mended_keeps_to_landmarks(creatures, judged, monkeypatch) -> No
         begun.append(landmarks.T)
         yield AlternatingResult(C, where.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "build_guidance", lead)
-    monkeypatch.setattr(mending, "alternating_registration", made)
-    way: Any = mending.refine_by_registration(ranked, judged.on, judged.copies, at)[1][0]
+    monkeypatch.setattr(registration_refine, "build_guidance", lead)
+    monkeypatch.setattr(registration_refine, "alternating_registration", made)
+    way: Any = registration_refine.refine_by_registration(ranked, creature_pair.fine, creature_pair.proxies, at)[1][0]
     way.make()
     (t, s), (s_again, t_again) = begun
     for there, here in ((s, t), (s_again, t_again)):
@@ -260,7 +258,7 @@ def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> No
     errors = []
     for some in (at[:0], at):
         found = SearchResult(slid, "a", None, "unlikely", landmarks=some, quality=SCORE.non_isometric_score - 1)
-        monkeypatch.setattr(matching, "search_map", lambda *_a, found=found, **_m: found)
+        monkeypatch.setattr(match, "search_map", lambda *_a, found=found, **_m: found)
         points = kfmaps.match(source, target, landmarks=at).target_to_source
         errors.append(kfmaps.geodesic_errors(source.mesh, points, truth))
     assert errors[1].mean() <= errors[0].mean() < 0.03
@@ -330,8 +328,8 @@ def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(
     given = right[:2].copy()
     given[1, 0] = away(symmetric, right[1, 0], 0.3)
     found = SearchResult(symmetric.C, "a", None, "sure", quality=-1.0, rejected_landmarks=np.arange(2))
-    monkeypatch.setattr(matching, "search_map", lambda *_a, **_m: found)
-    last = matching.match(symmetric.source, symmetric.target, SMALL, landmarks=given)
+    monkeypatch.setattr(match, "search_map", lambda *_a, **_m: found)
+    last = match.match(symmetric.source, symmetric.target, SMALL, landmarks=given)
     assert last.score.rejected_landmarks.tolist() == [1]
 
 
@@ -346,7 +344,7 @@ def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(
         (-1.1, -1.0, "none"),
     ],
 )
-def test_a_likely_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
+def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
     monkeypatch: pytest.MonkeyPatch, ahead: float, quality: float, outcome: str
 ) -> None:
     """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""

@@ -131,7 +131,7 @@ def test_every_choice_of_points_comes_from_the_seed(pair):
     assert not np.array_equal(ends[0], ends[1])
 
 
-def test_search_by_cells_misses_few_and_none_by_much(pair):
+def test_approximate_nearest_misses_few_and_none_by_much(pair):
     source, target, truth = pair
     C = to_functional(truth, source.basis, target.basis)
     queries, points = target.basis.functions, source.basis.functions @ C.T
@@ -148,7 +148,7 @@ def test_search_by_cells_misses_few_and_none_by_much(pair):
 
 
 @pytest.mark.parametrize(("size", "threads"), [(5, 1), (64, 3)])
-def test_cells_hold_every_point_once(pair, size, threads):
+def test_lists_hold_every_point_once(pair, size, threads):
     source, _, _ = pair
     functions = source.basis.functions[:, :40]
     with limit_threads(threads):
@@ -156,7 +156,7 @@ def test_cells_hold_every_point_once(pair, size, threads):
     np.testing.assert_array_equal(found, np.arange(len(functions)))
 
 
-def test_search_by_cells_takes_empty_and_tiny_sets(rng):
+def test_approximate_nearest_takes_empty_and_tiny_sets(rng):
     points = rng.normal(size=(1, 40))
     assert approximate_nearest(points, points).tolist() == [0]
     assert approximate_nearest(np.zeros((0, 40)), points).shape == (0,)
@@ -253,7 +253,7 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     np.testing.assert_array_equal(some.functional_map, to_functional(some.target_to_source, *ends))  # of all points
 
 
-def test_condensed_features_lose_no_more_than_they_say(rng):
+def test_truncated_features_lose_no_more_than_they_say(rng):
     source, target = random_basis(60, 8, rng), random_basis(50, 8, rng)
     mix = rng.normal(size=(20, 20)) * 10.0 ** -np.linspace(0, 6, 20)[:, None]
     W_s, W_t = rng.normal(size=(60, 20)) @ mix, rng.normal(size=(50, 20)) @ mix

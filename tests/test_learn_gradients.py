@@ -161,7 +161,7 @@ def test_memory_does_not_grow_with_the_iterations(case):
     assert held(CG(max_iter=1)) == held(EXACT)
 
 
-def test_compression_hardly_changes_the_gradient(case):
+def test_truncation_hardly_changes_the_gradient(case):
     source, target, F, G = case
     weights = {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5}
     spread = torch.cat([F, G[:, :1].mean() + 1e-4 * F], dim=1), torch.cat([G, G[:, :1].mean() + 1e-4 * G], dim=1)

@@ -46,7 +46,7 @@ def differences(source: Mesh, target: Mesh, place: PointMap, known: np.ndarray |
     return list(local_differences(ways, POINTS))
 
 
-def test_a_known_stretch_is_found() -> None:
+def test_a_known_change_of_area_is_found() -> None:
     source = square(12)
     area, conformal = differences(source, stretched(source), vertex_point_map(np.arange(len(source.vertices)), source))
     np.testing.assert_allclose(area, [2 / 2.5, 3 / 2.5])

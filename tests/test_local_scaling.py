@@ -59,7 +59,7 @@ def test_eigenvalues_are_clipped_where_one_is_beyond_the_bounds() -> None:
     np.testing.assert_allclose(found, wanted, atol=1e-12)
 
 
-def test_one_side_alone_is_hardly_stretched(ball) -> None:
+def test_one_side_alone_is_hardly_scaled(ball) -> None:
     """A dent smaller than the area is averaged away, a part as large as that is not."""
     mesh, energy, areas = ball
     up = mesh.vertices[:, 2] / mesh.vertices[:, 2].max()
@@ -105,12 +105,12 @@ def test_bodies_of_other_proportions_slide_less() -> None:
     assert off[1] < 0.7 * off[0]
 
 
-def test_a_stretch_is_an_area() -> None:
+def test_a_local_scale_is_an_area() -> None:
     with pytest.raises(InvalidInput, match=r"NonRigid\.local_scaling"):
         NonRigid(local_scaling=-0.01)
 
 
-def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
+def test_only_unlike_shapes_are_scaled_locally_in_the_end(monkeypatch) -> None:
     def adapted(registration, quality):
         found = SearchResult(np.eye(3), "a", None, "unlikely", quality=quality)
         return adapt_settings(replace(SMALL, registration=registration), found, 0).registration

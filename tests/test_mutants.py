@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -27,8 +28,11 @@ def test_its_line_is_there_once_and_its_tests_too(mutant) -> None:
     found = sum(text.count(mutant.line) for path, text in TEXTS.items() if mutant.file in path)
     assert found == 1, "name the line that has taken its place, or its file where there are several"
     assert mutant.broken != mutant.line
-    for name in mutant.tests.partition(" -k ")[0].split():
-        assert (Path(__file__).parent / f"{name}.py").is_file()
+    files, _, keywords = mutant.tests.partition(" -k ")
+    texts = [(Path(__file__).parent / f"{name}.py").read_text(encoding="utf-8") for name in files.split()]
+    names = [name for text in texts for name in re.findall(r"^def (test_\w+)", text, re.MULTILINE)]
+    for keyword in set(re.findall(r"\w+", keywords)) - {"and", "or", "not"}:
+        assert any(keyword in name for name in names), f"no test of {files} has {keyword} in its name"
 
 
 def test_guards_name_modules_that_are_there() -> None:

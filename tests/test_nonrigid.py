@@ -76,7 +76,7 @@ def test_no_point_of_a_triangle_is_closer() -> None:
     assert (np.linalg.norm(others - points, axis=2).min(axis=0) >= found.distances - 1e-12).all()
 
 
-def test_bending_is_nothing_for_motions_and_has_no_unit() -> None:
+def test_arap_energy_is_zero_for_motions_and_has_no_unit() -> None:
     mesh, R = datasets.sphere(200, rng=0), rotation(2)
     energy = build_arap(mesh)
     moved = mesh.vertices @ R.T + 1.0
@@ -100,7 +100,7 @@ def test_shares_of_vertices_add_up_to_twice_the_energy() -> None:
     assert arap_energy_per_vertex(energy, turned)[still] == pytest.approx(0, abs=1e-12)
 
 
-def test_bending_is_its_definition_and_pull_its_slope() -> None:
+def test_arap_energy_is_its_definition_and_arap_rhs_its_gradient() -> None:
     rng = np.random.default_rng(3)
     mesh = datasets.sphere(100, rng=0)
     energy = build_arap(mesh)
@@ -116,7 +116,7 @@ def test_bending_is_its_definition_and_pull_its_slope() -> None:
     assert arap_energy(energy, x) <= arap_energy(energy, x, R)  # the best rotations are the best
 
 
-def test_a_moved_copy_is_found(pair: datasets.ExamplePair) -> None:
+def test_a_moved_mesh_is_found(pair: datasets.ExamplePair) -> None:
     """From a map that is wrong by several edges: the fit knows nothing but closest points and rigidity."""
     rng = np.random.default_rng(4)
     source = unit_area(pair.source)
@@ -131,7 +131,7 @@ def test_a_moved_copy_is_found(pair: datasets.ExamplePair) -> None:
     assert np.linalg.norm(places - source.vertices, axis=1).mean() < 3e-3
 
 
-def test_sliding_and_a_folded_limb_are_mended(pair: datasets.ExamplePair) -> None:
+def test_registration_repairs_sliding_and_a_folded_limb(pair: datasets.ExamplePair) -> None:
     """A smooth wrong map: every target vertex slides, and around one end the map is the mirror image."""
     source, target = unit_area(pair.source), unit_area(pair.target)
     truth = source.vertices[pair.truth]
@@ -172,7 +172,7 @@ def test_a_match_has_points_in_triangles(pair: datasets.ExamplePair, shapes: tup
     assert errors[0] < spectral < errors[1]
 
 
-def test_a_whole_body_is_not_bent_onto_something_else(shapes: tuple[kfmaps.Shape, kfmaps.Shape]) -> None:
+def test_a_whole_body_is_not_registered_onto_something_else(shapes: tuple[kfmaps.Shape, kfmaps.Shape]) -> None:
     other = kfmaps.prepare(datasets.sphere(900, rng=0), CONFIG)
     found, plain = (kfmaps.match(shapes[0], other, c) for c in (CONFIG, replace(CONFIG, registration=None)))
     report = cast(RegistrationReport, found.registration.report)
@@ -184,7 +184,7 @@ def test_a_whole_body_is_not_bent_onto_something_else(shapes: tuple[kfmaps.Shape
     assert len(found.precise().faces) == len(other.mesh.vertices)
 
 
-def test_what_cannot_be_bent_is_refused(pair: datasets.ExamplePair) -> None:
+def test_what_cannot_be_registered_is_refused(pair: datasets.ExamplePair) -> None:
     with pytest.raises(InvalidInput, match="point cloud"):
         NonRigid()(cloud_of(pair.source), pair.target, pair.truth)
     for make in (lambda: NonRigid(stiffness=0.0), lambda: NonRigid(n_levels=0), lambda: NonRigid(steps=0)):

@@ -19,7 +19,7 @@ from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area
 from kfmaps.io import load_map, save_map
-from kfmaps.matching import match as matching
+from kfmaps.matching import match as match_module
 from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
@@ -249,7 +249,7 @@ def test_a_part_is_placed_in_units_of_the_whole(small, monkeypatch, which):
 
 
 @pytest.mark.parametrize("scale", ["fixed", "free"])
-def test_two_parts_are_placed_by_coarse_copies_and_their_landmarks(pair, monkeypatch, scale):
+def test_two_parts_are_placed_by_coarse_proxies_and_their_landmarks(pair, monkeypatch, scale):
     """The whole lacks one end, the part the other; copies of few vertices are placed, then both in full are bent."""
     monkeypatch.setattr("kfmaps.matching.partial.place_part._PROXY_FROM", 600)
     monkeypatch.setattr("kfmaps.matching.partial.place_part._PROXY_VERTICES", 500)
@@ -411,15 +411,15 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
 
     def wholes(*given):
         tried.append("whole")
-        assert given[-1].reason == matching._FIT_AS_WHOLES
+        assert given[-1].reason == match_module._FIT_AS_WHOLES
         return other
 
-    monkeypatch.setattr(matching, "match_partial", parts)
-    monkeypatch.setattr(matching, "_match_wholes", wholes)
-    monkeypatch.setattr(matching, "_compare_opposite", lambda _task, best, _which: best)
-    monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", opening))
+    monkeypatch.setattr(match_module, "match_partial", parts)
+    monkeypatch.setattr(match_module, "_match_wholes", wholes)
+    monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: best)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
-    result = matching.match(small, small, config)
+    result = match_module.match(small, small, config)
     assert result is {"part": part, "whole": other}[expected]
     assert tried == steps
 
@@ -452,9 +452,9 @@ def test_what_is_open_may_have_more_than_what_is_closed(
         tried.append(which)
         return answers[which], False
 
-    monkeypatch.setattr(matching, "match_partial", matched)
-    monkeypatch.setattr(matching, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
-    found = matching.match(small, small, config, landmarks=landmarks)
+    found = match_module.match(small, small, config, landmarks=landmarks)
     assert found is answers["source" if expected == "opposite" else "target"]
     assert tried == ["target"] + ["source"] * (word != "sure" and asked == "auto")

@@ -16,7 +16,7 @@ from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
 from kfmaps.matching.partial import candidates, place_part
-from kfmaps.matching.partial import candidates as contest
+from kfmaps.matching.partial import candidates as candidates_module
 from kfmaps.matching.partial.candidates import (
     _ROUNDS,
     _differ,
@@ -83,7 +83,7 @@ def test_the_rival_of_a_lengthwise_half_is_looked_for(half, true):
     assert margin(true) == pytest.approx(true[0].score - true[1].score)
 
 
-def test_who_begins_on_the_wrong_half_comes_to_the_right_one(half, true):
+def test_a_placement_that_starts_on_the_wrong_half_moves_to_the_right_one(half, true):
     found = compare_alternatives([placed_at(half, true[1].points)], half[0])
     assert error(half, found[0]) < 0.05
     assert error(half, found[1]) > 0.15
@@ -102,8 +102,8 @@ def again(one, *_rest):
 
 def test_rivals_are_polished_before_they_are_compared(monkeypatch):
     """The best at first, a copy of it, a rival that was hit by chance, and a third that is left behind."""
-    monkeypatch.setattr(contest, "_alternative_placements", lambda *_: [])
-    monkeypatch.setattr(contest, "_place_again", again)
+    monkeypatch.setattr(candidates_module, "_alternative_placements", lambda *_: [])
+    monkeypatch.setattr(candidates_module, "_place_again", again)
     found: Any = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
     last: Any = compare_alternatives(found, EMPTY)
     assert [one.points[0, 0] for one in last] == [1.0, 0.0, 2.0, 3.0]
@@ -117,7 +117,7 @@ def test_rivals_are_polished_before_they_are_compared(monkeypatch):
 
 
 def test_polishing_ends_where_nothing_is_gained(monkeypatch):
-    monkeypatch.setattr(contest, "_place_again", again)
+    monkeypatch.setattr(candidates_module, "_place_again", again)
     for gain, times in (
         (0.99 * SCORE.part.min_gain, _ROUNDS[0]),
         (1.01 * SCORE.part.min_gain, _ROUNDS[1]),
@@ -159,7 +159,7 @@ def test_a_candidate_pays_for_landmarks_that_it_contradicts(half, monkeypatch):
     off[marked.part.landmarks, 0] = [0.0, 0.99 * limit, 1.01 * limit]
     ends = places[on.part.samples]
     plain = register_part(on, scale, ends, ends, np.ones(len(ends)), True)
-    monkeypatch.setattr(contest, "register_part", lambda *_, **__: replace(plain, vertices=places + off))
+    monkeypatch.setattr(candidates_module, "register_part", lambda *_, **__: replace(plain, vertices=places + off))
     placed = Placement(scale, TRIALS[0], Assignment(np.arange(100), np.ones(100), 1.0), np.ones((100, 300)))
     found, free = make_candidate(placed, marked), make_candidate(placed, on)
     assert found.score == pytest.approx(free.score - COST)
@@ -251,19 +251,19 @@ def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better
     assert np.linalg.norm(places[found.target_to_source[on]] - places[true[on]], axis=1).mean() < 0.08
 
 
-def test_two_parts_are_judged_by_the_distances_in_their_overlap_alone(half, true, monkeypatch):
+def test_two_parts_are_scored_by_the_distances_in_their_overlap_alone(half, true, monkeypatch):
     pair, found = replace(half[0], both_partial=True), true[0].registration
     samples, whole = pair.part.samples, pair.whole
     overlap = np.zeros(len(found.vertices))
     overlap[samples[::2]] = 1.0
-    monkeypatch.setattr(contest, "find_overlap", lambda *_: SimpleNamespace(part=overlap))
+    monkeypatch.setattr(candidates_module, "find_overlap", lambda *_: SimpleNamespace(part=overlap))
     places = whole.mesh.vertices[whole.samples]
     nearest = np.linalg.norm(found.vertices[samples][:, None] - places, axis=2).argmin(axis=1)
     fits, near = pair.pair_consistency(found.scale, nearest)
     wanted = fits[::2, ::2].sum() / near[::2, ::2].sum()
-    judged = make_candidate(true[0].placement, pair).evidence
-    assert contest._overlap_consistency(found, pair) == pytest.approx(wanted)
-    assert judged.pair_consistency != true[0].evidence.pair_consistency == SCORE.part.usual_pair_consistency
+    creature_pair = make_candidate(true[0].placement, pair).evidence
+    assert candidates_module._overlap_consistency(found, pair) == pytest.approx(wanted)
+    assert creature_pair.pair_consistency != true[0].evidence.pair_consistency == SCORE.part.usual_pair_consistency
 
 
 SCALE, RADIUS = 0.4, max(TRIALS[0].radii)

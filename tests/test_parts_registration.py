@@ -90,7 +90,7 @@ def test_a_part_that_was_moved_lies_where_it_was_cut(shapes, laid):
     assert found.inside.all()
 
 
-def test_all_vertices_follow_a_coarse_copy(shapes, laid):
+def test_all_vertices_follow_a_coarse_proxy(shapes, laid):
     whole, half, own = shapes
     _, on, part, size = laid
     copy = coarse_proxy(part, spread_vertices(part, len(own) // 3))

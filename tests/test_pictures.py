@@ -10,14 +10,14 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from conftest import fibonacci_sphere
-from kfmaps import viz as pictures
+from kfmaps import viz
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.viz.camera import fit_rotation
 from kfmaps.viz.figures import _oklab_to_rgb, make_transparent
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
-FRONT = pictures.view_from((0, 0, 1))
+FRONT = viz.view_from((0, 0, 1))
 
 
 def ball(n: int = 700, center: tuple = (0.0, 0.0, 0.0), radius: float = 1.0) -> Mesh:
@@ -39,9 +39,9 @@ def pixels(figure: Figure) -> np.ndarray:
     return np.asarray(canvas.buffer_rgba())[:, :, :3] / 255.0
 
 
-def drawn(mesh: Mesh, colors: np.ndarray, view: pictures.View = FRONT, **options) -> np.ndarray:
+def drawn(mesh: Mesh, colors: np.ndarray, view: viz.View = FRONT, **options) -> np.ndarray:
     figure = Figure(figsize=(2, 2), dpi=100, facecolor="white")
-    pictures.draw_surface(figure.add_axes((0, 0, 1, 1)), mesh, colors, view, **options)
+    viz.draw_surface(figure.add_axes((0, 0, 1, 1)), mesh, colors, view, **options)
     return pixels(figure)
 
 
@@ -82,7 +82,7 @@ def test_near_hides_far() -> None:
     picture = drawn(both, colors, shading=False)
     np.testing.assert_allclose(picture[100, 100], BLUE, atol=0.03)
     np.testing.assert_allclose(picture[100, 30], RED, atol=0.03)
-    behind = drawn(both, colors, pictures.view_from((0, 0, -1)), shading=False)
+    behind = drawn(both, colors, viz.view_from((0, 0, -1)), shading=False)
     np.testing.assert_allclose(behind[100, 100], RED, atol=0.03)
 
 
@@ -90,15 +90,15 @@ def test_right_in_the_view_is_right_in_the_picture() -> None:
     mesh = ball()
     colors = np.where(mesh.vertices[:, :1] > 0, RED, BLUE)
     for towards, up, red in [((0, 0, 1), (0, 1, 0), 160), ((0, 0, -1), (0, 1, 0), 40)]:
-        picture = drawn(mesh, colors, pictures.view_from(towards, up), shading=False)
+        picture = drawn(mesh, colors, viz.view_from(towards, up), shading=False)
         np.testing.assert_allclose(picture[100, red], RED, atol=0.03)
-    upright = drawn(mesh, colors, pictures.view_from((0, 0, 1), (1, 0, 0)), shading=False)
+    upright = drawn(mesh, colors, viz.view_from((0, 0, 1), (1, 0, 0)), shading=False)
     np.testing.assert_allclose(upright[40, 100], RED, atol=0.03)
 
 
 def test_orientation_of_the_faces_does_not_matter() -> None:
     mesh = blob()
-    colors = pictures.position_colors(mesh)
+    colors = viz.position_colors(mesh)
     inward = Mesh(mesh.vertices, mesh.faces[:, ::-1])
     assert np.abs(drawn(mesh, colors) - drawn(inward, colors)).max() < 0.02
 
@@ -120,16 +120,16 @@ def test_a_cloud_is_drawn_as_dots() -> None:
 def test_colours_are_carried_by_the_map() -> None:
     source = blob()
     n = len(source.vertices)
-    identity = pixels(pictures.match_figure(source, source, np.arange(n)))
+    identity = pixels(viz.match_figure(source, source, np.arange(n)))
     order = np.random.default_rng(0).permutation(n)
     shuffled = Mesh(source.vertices[order], np.argsort(order)[source.faces])
-    same = pixels(pictures.match_figure(source, shuffled, order))
+    same = pixels(viz.match_figure(source, shuffled, order))
     assert np.abs(same - identity).max() < 0.03
     half = identity.shape[1] // 2
     left, right = identity[:, :half], identity[:, half:]
     body = slice(0, int(0.9 * len(left)))
     assert np.abs(left[body] - right[body]).mean() < 0.01, "equal shapes, equal panels"
-    wrong = pixels(pictures.match_figure(source, shuffled, np.arange(n)))
+    wrong = pixels(viz.match_figure(source, shuffled, np.arange(n)))
     assert np.abs(wrong[:, half:] - identity[:, half:]).mean() > 0.02
     np.testing.assert_allclose(wrong[:, : half - 20], identity[:, : half - 20], atol=0.03)
 
@@ -138,15 +138,15 @@ def test_error_panel_and_its_bar() -> None:
     source = blob()
     n = len(source.vertices)
     errors = np.where(source.vertices[:, 1] > 0, 0.2, 0.0)
-    figure = pictures.match_figure(source, source, np.arange(n), errors=errors, limit=0.2, title="A title")
+    figure = viz.match_figure(source, source, np.arange(n), errors=errors, limit=0.2, title="A title")
     bar = figure.axes[-1]
     assert bar.get_ylim() == (0, 0.2)
     assert "% of √area" in bar.get_ylabel()
     ticks = bar.yaxis.get_major_formatter()
     assert [ticks(value, 0) for value in (0.0, 0.025, 0.15)] == ["0", "2.5", "15"]
     assert len(figure.axes) == 4
-    assert len(pictures.match_figure(source, source, np.arange(n)).axes) == 2
-    calm = pictures.match_figure(source, source, np.arange(n), errors=0 * errors, limit=0.2, title="A title")
+    assert len(viz.match_figure(source, source, np.arange(n)).axes) == 2
+    calm = viz.match_figure(source, source, np.arange(n), errors=0 * errors, limit=0.2, title="A title")
     changed = np.abs(pixels(figure) - pixels(calm)).max(axis=2)
     width = changed.shape[1]
     assert changed[:, : width // 2].max() == 0
@@ -157,40 +157,40 @@ def test_error_panel_and_its_bar() -> None:
 
 
 def test_error_colours_run_from_white_to_dark() -> None:
-    colors = pictures.error_colors(np.array([0, 0.02, 0.05, 0.1, 0.5]), limit=0.1)
+    colors = viz.error_colors(np.array([0, 0.02, 0.05, 0.1, 0.5]), limit=0.1)
     np.testing.assert_array_equal(colors[0], 1)
     np.testing.assert_array_equal(colors[3], colors[4])
-    luminance = pictures.error_colors(np.linspace(0, 1, 50), limit=1) @ [0.2126, 0.7152, 0.0722]
+    luminance = viz.error_colors(np.linspace(0, 1, 50), limit=1) @ [0.2126, 0.7152, 0.0722]
     assert (np.diff(luminance) < 0).all()
     for errors, limit in (([np.nan, 0], 0.1), ([0.0, 1], 0.0)):
         with pytest.raises(InvalidInput):
-            pictures.error_colors(np.array(errors), limit)
+            viz.error_colors(np.array(errors), limit)
 
 
 def test_error_limit_is_a_round_number_above_nearly_all() -> None:
     rng = np.random.default_rng(0)
     for scale in (1e-3, 0.07, 4.0):
         errors = scale * rng.random(1000)
-        limit = pictures.error_limit(errors)
+        limit = viz.error_limit(errors)
         top = np.percentile(errors, 99)
         assert top <= limit <= 2.01 * top
         assert limit == pytest.approx(float(f"{limit:.0e}"))
-    assert pictures.error_limit(np.zeros(5)) > 0
-    assert pictures.error_limit(np.full(5, 0.1)) == pytest.approx(0.1)
+    assert viz.error_limit(np.zeros(5)) > 0
+    assert viz.error_limit(np.full(5, 0.1)) == pytest.approx(0.1)
 
 
 def test_position_colours_know_places_but_not_units() -> None:
     mesh = blob()
-    colors = pictures.position_colors(mesh)
+    colors = viz.position_colors(mesh)
     assert colors.min() >= 0
     assert colors.max() <= 1
     moved = Mesh(1000 * mesh.vertices + [5, -3, 2], mesh.faces)
-    np.testing.assert_allclose(pictures.position_colors(moved), colors, atol=1e-6)
+    np.testing.assert_allclose(viz.position_colors(moved), colors, atol=1e-6)
     distance = np.linalg.norm(mesh.vertices[:, None] - mesh.vertices, axis=2)
     unlike = np.linalg.norm(colors[:, None] - colors, axis=2)
     assert unlike[distance > 1].min() > 0.05
     flat = Mesh(mesh.vertices * [1, 1, 0], mesh.faces)
-    assert np.isfinite(pictures.position_colors(flat)).all()
+    assert np.isfinite(viz.position_colors(flat)).all()
 
 
 def test_oklab_has_its_greys_and_its_primaries() -> None:
@@ -207,10 +207,10 @@ def test_automatic_view_faces_the_broad_side() -> None:
         scale = np.ones(3)
         scale[thin] = 0.2
         flat = Mesh(mesh.vertices * scale, mesh.faces)
-        view = pictures.automatic_view(flat)
+        view = viz.automatic_view(flat)
         assert view.towards[thin] > 0.9
         assert up is None or view.up[up] > 0.9
-        moved = pictures.automatic_view(Mesh(50 * flat.vertices + 7, flat.faces))
+        moved = viz.automatic_view(Mesh(50 * flat.vertices + 7, flat.faces))
         np.testing.assert_allclose(moved.towards, view.towards, atol=1e-6)
         np.testing.assert_allclose(view.axes() @ view.axes().T, np.eye(3), atol=1e-12)
         assert np.linalg.det(view.axes()) > 0
@@ -220,7 +220,7 @@ def test_automatic_view_finds_a_tilted_plate() -> None:
     normal = np.array([1.0, 1.0, 1.0]) / np.sqrt(3)
     mesh = ball()
     plate = Mesh(mesh.vertices - 0.98 * np.outer(mesh.vertices @ normal, normal), mesh.faces)
-    assert pictures.automatic_view(plate).towards @ normal > 0.9
+    assert viz.automatic_view(plate).towards @ normal > 0.9
 
 
 def test_what_stands_on_feet_is_seen_upright() -> None:
@@ -229,7 +229,7 @@ def test_what_stands_on_feet_is_seen_upright() -> None:
     parts += [ball(100, (0, y, z), 0.15) for y in (-1, 1) for z in (0.2, 0.4, 0.6)]
     points = np.concatenate([p.vertices for p in parts])
     for up, places in ((2, points), (1, points[:, [0, 2, 1]])):
-        view = pictures.automatic_view(Mesh(places, np.zeros((0, 3))))
+        view = viz.automatic_view(Mesh(places, np.zeros((0, 3))))
         assert view.towards[0] > 0.9
         assert view.up[up] > 0.9
 
@@ -240,16 +240,16 @@ def test_the_target_is_seen_from_the_same_side() -> None:
     angle = np.deg2rad(110)
     turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
     turned = Mesh(source.vertices @ turn.T, source.faces)
-    view = pictures.view_from((1, 2, 3))
-    followed = pictures.following_view(view, source, turned, same)
+    view = viz.view_from((1, 2, 3))
+    followed = viz.following_view(view, source, turned, same)
     np.testing.assert_allclose(followed.towards, turn @ view.towards, atol=1e-9)
     np.testing.assert_allclose(followed.up, turn @ view.up, atol=1e-9)
-    assert pictures.following_view(view, source, source, same) is view
-    colors = pictures.position_colors(source)
+    assert viz.following_view(view, source, source, same) is view
+    colors = viz.position_colors(source)
     a, b = drawn(source, colors, view), drawn(turned, colors, followed)
     assert np.abs(a - b).mean() < 0.01
     mirrored = Mesh(source.vertices * [-1, 1, 1], source.faces)
-    assert np.linalg.det(pictures.following_view(view, source, mirrored, same).axes()) > 0
+    assert np.linalg.det(viz.following_view(view, source, mirrored, same).axes()) > 0
 
 
 def _body(*parts: tuple[tuple[float, ...], tuple[float, ...]]) -> Mesh:
@@ -267,14 +267,14 @@ def test_shapes_of_different_kinds_are_both_upright() -> None:
     upper = [((0.7, 0.1, 0.1), (x, 0.6, 0)) for x in (-0.9, 0.9)]
     person = _body(((0.4, 0.8, 0.25), (0, 0, 0)), *lower, *upper)
     same = np.arange(len(animal.vertices))
-    view, own = pictures.automatic_view(animal), pictures.automatic_view(person)
+    view, own = viz.automatic_view(animal), viz.automatic_view(person)
     assert view.up[2] > 0.9
     assert own.up[1] > 0.9
     turn, alike = fit_rotation(*(x - x.mean(axis=0) for x in (animal.vertices, person.vertices)))
     assert alike > 0.6, "the map is believed"
     assert (turn @ view.up)[1] < 0.5, "and alone would lay the person down"
-    assert pictures.following_view(view, animal, person, same).up[1] > 0.9
-    assert pictures.following_view(own, person, animal, same).up[2] > 0.9
+    assert viz.following_view(view, animal, person, same).up[1] > 0.9
+    assert viz.following_view(own, person, animal, same).up[2] > 0.9
 
 
 def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path) -> None:
@@ -282,30 +282,30 @@ def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path) -> None:
     for kind, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
         files = [tmp_path / f"{i}.{kind}" for i in range(2)]
         for file in files:
-            pictures.save_figure(pictures.match_figure(mesh, mesh, np.arange(len(mesh.vertices))), file)
+            viz.save_figure(viz.match_figure(mesh, mesh, np.arange(len(mesh.vertices))), file)
         written = [file.read_bytes() for file in files]
         assert written[0].startswith(start)
         assert written[0] == written[1], kind
         stream = io.BytesIO()
-        pictures.save_figure(Figure(), stream, kind)
+        viz.save_figure(Figure(), stream, kind)
         assert stream.getvalue().startswith(start)
 
 
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda _: pictures.picture_format("map.gif"), "Rename"),
-        (lambda _: pictures.picture_format("map"), "no extension"),
-        (lambda _: pictures.save_figure(Figure(), io.BytesIO()), "no extension"),
-        (lambda _: pictures.save_figure(Figure(), io.BytesIO(), "gif"), "png, svg, pdf"),
-        (lambda _: pictures.view_from((0, 0, 0)), "apart"),
-        (lambda _: pictures.view_from((0, 2, 0), (0, 1, 0)), "apart"),
-        (lambda _: pictures.view_from((np.nan, 2, 0)), "towards"),
-        (lambda m: pictures.match_figure(m, m, np.arange(5)), "target_to_source"),
-        (lambda m: pictures.match_figure(m, m, np.full(len(m.vertices), -2)), "source vertices from 0"),
-        (lambda m: pictures.match_figure(m, m, np.full(len(m.vertices), 10**6)), "1000000"),
-        (lambda m: pictures.match_figure(m, m, np.full(len(m.vertices), 0.5)), "whole number"),
-        (lambda m: pictures.match_figure(m, m, np.arange(len(m.vertices)), errors=np.ones(3)), "errors"),
+        (lambda _: viz.picture_format("map.gif"), "Rename"),
+        (lambda _: viz.picture_format("map"), "no extension"),
+        (lambda _: viz.save_figure(Figure(), io.BytesIO()), "no extension"),
+        (lambda _: viz.save_figure(Figure(), io.BytesIO(), "gif"), "png, svg, pdf"),
+        (lambda _: viz.view_from((0, 0, 0)), "apart"),
+        (lambda _: viz.view_from((0, 2, 0), (0, 1, 0)), "apart"),
+        (lambda _: viz.view_from((np.nan, 2, 0)), "towards"),
+        (lambda m: viz.match_figure(m, m, np.arange(5)), "target_to_source"),
+        (lambda m: viz.match_figure(m, m, np.full(len(m.vertices), -2)), "source vertices from 0"),
+        (lambda m: viz.match_figure(m, m, np.full(len(m.vertices), 10**6)), "1000000"),
+        (lambda m: viz.match_figure(m, m, np.full(len(m.vertices), 0.5)), "whole number"),
+        (lambda m: viz.match_figure(m, m, np.arange(len(m.vertices)), errors=np.ones(3)), "errors"),
         (lambda m: drawn(m, np.ones((3, 3))), "colors"),
     ],
 )
@@ -315,7 +315,7 @@ def test_bad_input_is_refused(make, message: str) -> None:
 
 
 def test_a_transparent_figure_can_be_read_on_light_and_dark_pages() -> None:
-    figure = pictures.curves_figure([pictures.Curve("a", np.array([0.0, 0.1]), np.array([0.2, 1.0]))])
+    figure = viz.curves_figure([viz.Curve("a", np.array([0.0, 0.1]), np.array([0.2, 1.0]))])
     canvas = FigureCanvasAgg(make_transparent(figure))
     canvas.draw()
     pixels = np.asarray(canvas.buffer_rgba())

@@ -123,7 +123,7 @@ def test_conjugate_gradients_equal_the_dense_solve(shape, other, marks):
     np.testing.assert_allclose(plain.fit.raw_functional_map, direct.fit.raw_functional_map, atol=1e-4)
 
 
-def test_compression_hardly_changes_the_answer(shape, other, marks, plain):
+def test_truncation_hardly_changes_the_result(shape, other, marks, plain):
     fewer = match(shape, other, replace(RAW, operator_rtol=1e-5), landmarks=marks)
     assert (fewer.fit.n_operators or 99) < plain.fit.n_operators
     np.testing.assert_allclose(fewer.fit.raw_functional_map, plain.fit.raw_functional_map, atol=0.01)

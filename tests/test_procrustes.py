@@ -65,7 +65,7 @@ def test_two_specimens_agree_with_scipy(shapes: np.ndarray) -> None:
     assert np.linalg.det(turn) == pytest.approx(1)
 
 
-def test_missing_landmarks_have_no_say(shapes: np.ndarray) -> None:
+def test_missing_landmarks_do_not_count(shapes: np.ndarray) -> None:
     holes = shapes.copy()
     holes[2, 4] = np.nan
     found = generalized_procrustes(holes)

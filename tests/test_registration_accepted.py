@@ -81,7 +81,7 @@ def spot_of(pair: datasets.ExamplePair, share: float) -> np.ndarray:
     return order[: np.searchsorted(np.cumsum(vertex_areas(target)[order]), share)]
 
 
-def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: datasets.ExamplePair) -> None:
+def test_a_registration_that_worsens_a_region_is_repeated_with_the_map_pinned_there(pair: datasets.ExamplePair) -> None:
     spot = spot_of(pair, 0.05)
     finish = Pretended(pair, spot)
     last = end(pair, finish)
@@ -94,7 +94,7 @@ def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: dat
     np.testing.assert_array_equal(last.target_to_source, pair.truth)
 
 
-def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.ExamplePair) -> None:
+def test_a_registration_that_still_worsens_the_map_is_rejected(pair: datasets.ExamplePair) -> None:
     last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True))
     assert last.fit.reason == "harm"
     assert last.fit.worsened > _MAX_WORSENED_AREA
@@ -102,7 +102,7 @@ def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.ExamplePair) -> No
     assert last.precise_map is None
 
 
-def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.ExamplePair) -> None:
+def test_a_registration_that_improves_more_than_it_worsens_is_kept(pair: datasets.ExamplePair) -> None:
     target = unit_area(pair.target)
     other = np.argsort(-np.linalg.norm(target.vertices - target.vertices[0], axis=1))[: len(target.vertices) // 5]
     wrong = pair.truth.copy()
@@ -167,7 +167,7 @@ def test_rotations_become_even_and_constant_ones_stay(pair: datasets.ExamplePair
     np.testing.assert_array_equal(_rotation_smoothing(two, 0.0)(rough), rough)
 
 
-def test_the_fit_bends_more_evenly(pair: datasets.ExamplePair, meshes: tuple[Mesh, Mesh]) -> None:
+def test_rotation_smoothing_deforms_more_evenly(pair: datasets.ExamplePair, meshes: tuple[Mesh, Mesh]) -> None:
     energy = build_arap(meshes[0])
 
     def unevenness(found: Registration) -> float:
@@ -179,7 +179,7 @@ def test_the_fit_bends_more_evenly(pair: datasets.ExamplePair, meshes: tuple[Mes
     assert even.gap < 1.2 * rough.gap
 
 
-def test_landmarks_pull_their_surroundings_bad_ones_hardly_and_what_is_held_stays(
+def test_landmarks_pull_their_surroundings_bad_ones_hardly_and_pinned_vertices_stay(
     pair: datasets.ExamplePair, meshes: tuple[Mesh, Mesh], slid: np.ndarray
 ) -> None:
     source, target = meshes
@@ -234,7 +234,7 @@ def test_small_torn_patches_go_where_their_surroundings_go_and_large_and_loose_o
     np.testing.assert_array_equal(rejoin_torn_patches(wrong, source, target), wrong)
 
 
-def test_a_registration_does_not_stretch_one_limb_to_another() -> None:
+def test_a_registration_does_not_pull_one_limb_to_another() -> None:
     """Without a second registration one tip is stretched to the other: an error of 1.02, an energy of 0.57."""
     pair = datasets.non_isometric(1500, rng=5)
     source, target = unit_area(pair.source), unit_area(pair.target)

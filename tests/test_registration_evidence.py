@@ -17,22 +17,21 @@ from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching import ranking, search
-from kfmaps.matching import registration_refine as mending
+from kfmaps.matching import ranking, registration_refine, search
 from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search_result import build_result
-from kfmaps.registration import alternating_registration as alternate
-from kfmaps.registration import evidence as looks
+from kfmaps.registration import alternating_registration as alternating_module
+from kfmaps.registration import evidence
 from kfmaps.registration.alternating_registration import proxy_pair
 from kfmaps.registration.evidence import (
     _shot_difference,
     _surface_samples,
-    coarse_copy,
     registered_shot_error,
+    shape_proxy,
 )
 
 GUARDS = ("kfmaps.matching", "kfmaps.registration")
@@ -48,9 +47,11 @@ def knees() -> ExamplePair:
     return posed_pair("knees", Body(SYMMETRIC), {**WAVE, **inwards}, {}, (1500, 1200), draw, mirror=True)
 
 
-def test_differences_are_squared_and_from_what_lies_nearest(judged, monkeypatch):
-    mesh = judged.source.mesh
-    monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
+def test_differences_are_squared_and_from_what_lies_nearest(creature_pair, monkeypatch):
+    mesh = creature_pair.source.mesh
+    monkeypatch.setattr(
+        evidence, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float)
+    )
     here = _surface_samples(mesh)
     at = np.arange(0, len(mesh.vertices), 6)
     np.testing.assert_array_equal(here.descriptors[:, 0], at)
@@ -59,49 +60,50 @@ def test_differences_are_squared_and_from_what_lies_nearest(judged, monkeypatch)
     assert _shot_difference(moved, mesh) == pytest.approx(25.0)
 
 
-def test_a_surface_looks_like_itself_wherever_its_vertices_are(judged):
-    mesh = judged.source.mesh
+def test_the_shot_error_of_a_surface_and_itself_does_not_depend_on_its_vertices(creature_pair):
+    mesh = creature_pair.source.mesh
     order = np.random.default_rng(0).permutation(len(mesh.vertices))
     samples = _surface_samples(mesh)
     assert _shot_difference(samples, reordered(mesh, order)) == pytest.approx(0, abs=1e-6)
     assert _shot_difference(samples, Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
 
 
-def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(judged):
+def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creature_pair):
     """Where two sheets lie close, it is the normals that tell which point lies on which."""
     here, there = (
-        _surface_samples(mesh).position_normals for mesh in (judged.source.mesh, inside_out(judged.source.mesh))
+        _surface_samples(mesh).position_normals
+        for mesh in (creature_pair.source.mesh, inside_out(creature_pair.source.mesh))
     )
-    np.testing.assert_allclose(np.linalg.norm(here - there, axis=1), 2 * alternate._NORMAL_WEIGHT, rtol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(here - there, axis=1), 2 * alternating_module._NORMAL_WEIGHT, rtol=1e-6)
 
 
-def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(judged):
-    v = judged.source.mesh.vertices - judged.source.mesh.vertices.mean(axis=0)
+def test_a_registration_by_a_wrong_map_has_a_larger_shot_error(creature_pair):
+    v = creature_pair.source.mesh.vertices - creature_pair.source.mesh.vertices.mean(axis=0)
     about = nearest(v, v * [-1.0, -1.0, 1.0])
-    wrong = functional_map(about[judged.truth], judged.source, judged.target)
-    good, bad = (registered_shot_error(C, judged.copies.coarse) or 0 for C in (judged.C, wrong))
+    wrong = functional_map(about[creature_pair.truth], creature_pair.source, creature_pair.target)
+    good, bad = (registered_shot_error(C, creature_pair.proxies.coarse) or 0 for C in (creature_pair.C, wrong))
     assert 0 < good < 0.8 * bad
 
 
-def test_both_directions_count_unless_one_falls_apart(judged, monkeypatch):
-    pair = judged.copies.coarse
+def test_both_directions_count_unless_one_falls_apart(creature_pair, monkeypatch):
+    pair = creature_pair.proxies.coarse
     for forth, back, wanted in ((0.1, 0.3, pytest.approx(0.2)), (0.1, None, pytest.approx(0.1)), (None, None, None)):
         told = {True: forth, False: back}
-        monkeypatch.setattr(looks, "_registered_shot_error", lambda way, *_rest, told=told: told[way is pair.forth])
-        assert registered_shot_error(judged.C, pair) == wanted
+        monkeypatch.setattr(evidence, "_registered_shot_error", lambda way, *_rest, told=told: told[way is pair.forth])
+        assert registered_shot_error(creature_pair.C, pair) == wanted
 
 
-def test_a_copy_that_falls_apart_is_not_looked_at(judged, monkeypatch):
+def test_a_proxy_that_falls_apart_has_no_shot_error(creature_pair, monkeypatch):
     class Broken:
         def bent(self, *_what):
             raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(looks, "FIT", Broken())
-    assert registered_shot_error(judged.C, judged.copies.coarse) is None
+    monkeypatch.setattr(evidence, "FIT", Broken())
+    assert registered_shot_error(creature_pair.C, creature_pair.proxies.coarse) is None
 
 
-def test_looks_and_strain_count_over_usual_ones(judged):
-    one = judged.right
+def test_shot_error_and_strain_count_relative_to_reference_values(creature_pair):
+    one = creature_pair.right
     some = [replace(one, strain=s, shot_error=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
     usual = (-2.0, 0.2)
     assert reference_values(some, min) == usual
@@ -111,8 +113,8 @@ def test_looks_and_strain_count_over_usual_ones(judged):
     assert lost == pytest.approx([SCORE.w_strain, SCORE.w_shot * 0.06, 0.0])
 
 
-def test_of_mended_maps_the_one_that_looks_right_comes_first(judged, monkeypatch):
-    good = replace(judged.right, deformation_energy=1.0)
+def test_of_repaired_maps_the_one_with_the_least_shot_error_comes_first(creature_pair, monkeypatch):
+    good = replace(creature_pair.right, deformation_energy=1.0)
     turned = np.roll(np.arange(len(good.points)), 50)
     quality = replace(good.quality, distortion=good.quality.distortion - 0.01)
     bad = replace(good, name="bad", points=turned, quality=quality, functional_map=-good.functional_map)
@@ -120,30 +122,36 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(judged, monkeypatch
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
-    monkeypatch.setattr(mending, "alternating_registration", stays)
-    begun = [bad, good], judged.on, judged.copies, NO_LANDMARKS
+    monkeypatch.setattr(registration_refine, "registered_shot_error", lambda *_what: 0.2)
+    monkeypatch.setattr(registration_refine, "alternating_registration", stays)
+    begun = [bad, good], creature_pair.fine, creature_pair.proxies, NO_LANDMARKS
     ranked = refine_by_registration(*begun)[0]
     assert [c.name for c in ranked] == ["bad", "truth"]
-    made = alternate.AlternatingResult(good.functional_map, judged.source.mesh.vertices)
-    monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)]))
-    monkeypatch.setattr(mending, "score_maps", lambda starts, *_w: [bad if starts[0].name == "bad" else good])
-    monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
-    monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    made = alternating_module.AlternatingResult(good.functional_map, creature_pair.source.mesh.vertices)
+    monkeypatch.setattr(
+        registration_refine, "alternating_registration", lambda C, *_what: iter([replace(made, functional_map=C)])
+    )
+    monkeypatch.setattr(
+        registration_refine, "score_maps", lambda starts, *_w: [bad if starts[0].name == "bad" else good]
+    )
+    monkeypatch.setattr(registration_refine, "score_registered", lambda c, *_what: replace(c, strain=0.0))
+    monkeypatch.setattr(
+        registration_refine, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2
+    )
     found = refine_by_registration(*begun)[0]
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
 
-def test_repairs_that_were_given_up_count_as_the_worst(judged, monkeypatch):
-    one = judged.right
+def test_repairs_that_were_given_up_count_as_the_worst(creature_pair, monkeypatch):
+    one = creature_pair.right
     maps = [
         replace(one, name=str(i), points=np.roll(one.points, 50 * i), functional_map=i * np.eye(5)) for i in range(3)
     ]
     ended = {i: replace(c, shot_error=0.1 + 0.2 * i, strain=float(i)) for i, c in enumerate(maps[:2])}
-    monkeypatch.setattr(mending, "with_shot_errors", lambda found, *_what: found)
-    monkeypatch.setattr(mending, "_run_repairs", lambda *_what: (ended, {2: maps[2]}))
-    found = refine_by_registration(maps, judged.on, judged.copies, NO_LANDMARKS)[0]
+    monkeypatch.setattr(registration_refine, "with_shot_errors", lambda found, *_what: found)
+    monkeypatch.setattr(registration_refine, "_run_repairs", lambda *_what: (ended, {2: maps[2]}))
+    found = refine_by_registration(maps, creature_pair.fine, creature_pair.proxies, NO_LANDMARKS)[0]
     assert {c.name: c.shot_error for c in found} == pytest.approx({"0": 0.0, "1": 0.2, "2": 0.2})
     assert {c.name: c.strain for c in found} == {"0": 0.0, "1": 1.0, "2": 1.0}
 
@@ -174,13 +182,13 @@ def test_maps_are_alike_that_are_off_by_an_edge_here_and_there(knees):
     assert 0 < map_distance(right, off, on) < SCORE.duplicate_distance
 
 
-def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
+def test_shot_errors_decide_where_they_are_computed_but_bring_nothing_back(knees):
     """What they say against a map that exchanges all below the waist is more than the margin below which they are asked
     for, and less than what is hopeless. Exchanged feet alone are worth asking for; and to wait for what is farther
     behind they would have to speak against a map that is wrong everywhere."""
     plain = replace(kfmaps.Config(), descriptors=replace(kfmaps.Config().descriptors, shot=False))
     source, target = (kfmaps.prepare(mesh, plain, name="a") for mesh in (knees.source, knees.target))
-    copies: Any = coarse_copy(source), coarse_copy(target)
+    copies: Any = shape_proxy(source), shape_proxy(target)
     on = proxy_pair(source, target, copies)
     maps = (functional_map(exchanged(knees, height), source, target, 60) for height in (0.0, 0.1, 0.7, 3.0))
     seen = [registered_shot_error(C, on) or 0 for C in maps]
@@ -189,9 +197,9 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
 
 
 @pytest.mark.parametrize(("margin", "again"), [(2.0, False), (0.5, True)])
-def test_of_two_that_are_close_looks_decide(judged, monkeypatch, margin, again):
+def test_of_two_that_are_close_shot_errors_decide(creature_pair, monkeypatch, margin, again):
     """And where they are closer still, both are bent again; farther back nobody is looked at."""
-    good = judged.right
+    good = creature_pair.right
     quality = replace(good.quality, distortion=good.quality.distortion - margin / 6)
     good = replace(good, deformation_energy=0.15)
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
@@ -199,7 +207,7 @@ def test_of_two_that_are_close_looks_decide(judged, monkeypatch, margin, again):
     bent = []
     monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = rerank_close([bad, good, rest], judged.copies)
+    found = rerank_close([bad, good, rest], creature_pair.proxies)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.shot_error for c in found[:2]] == pytest.approx([0.0, 0.05])
     assert found[0].score - found[1].score == pytest.approx(0.05 * SCORE.w_shot - margin)
@@ -207,8 +215,8 @@ def test_of_two_that_are_close_looks_decide(judged, monkeypatch, margin, again):
     assert bent == (["bad", "truth"] if again else [])
 
 
-def test_looks_are_asked_for_where_two_are_close(judged, monkeypatch):
-    one, asked = judged.right, []
+def test_shot_errors_are_asked_for_where_two_are_close(creature_pair, monkeypatch):
+    one, asked = creature_pair.right, []
     monkeypatch.setattr(ranking, "rerank_close", lambda order, *_rest: asked.append(len(order)) or order)
     monkeypatch.setattr(
         ranking, "with_deformation_energy", lambda near, *_rest: [replace(c, deformation_energy=0.15) for c in near]
@@ -216,7 +224,7 @@ def test_looks_are_asked_for_where_two_are_close(judged, monkeypatch):
     for margin, wanted in ((SCORE.shot_margin + 0.2, 0), (SCORE.shot_margin - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
-        arguments = [one, other], judged.on, judged.copies
+        arguments = [one, other], creature_pair.fine, creature_pair.proxies
         first = ranking.ranking(*arguments)[0].score
         assert len(asked) == wanted
         ranking.ranking(*arguments, least=first)
@@ -225,8 +233,8 @@ def test_looks_are_asked_for_where_two_are_close(judged, monkeypatch):
         assert len(asked) == 2 * wanted
 
 
-def test_what_is_far_behind_is_not_looked_at(judged):
-    one = replace(judged.right, strain=0.0)
+def test_what_is_far_behind_is_not_looked_at(creature_pair):
+    one = replace(creature_pair.right, strain=0.0)
     behind = [
         replace(one, strain=s / SCORE.w_strain) for s in (0.0, SCORE.hopeless_margin - 1, SCORE.hopeless_margin + 1)
     ]

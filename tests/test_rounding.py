@@ -209,7 +209,7 @@ def test_constant_features_have_no_orientation(shape):
     assert value(term, np.random.default_rng(0).normal(size=(K, K))) == 0
 
 
-def test_slices_of_features_that_are_zero(shape):
+def test_multiplication_operators_of_features_that_are_zero(shape):
     nothing, basis = np.zeros((500, 3)), shape.basis.truncate(8)
     for features in truncate_features(basis, nothing, basis, nothing, 1e-3):
         assert features.shape == (500, 0)

@@ -99,7 +99,7 @@ def test_heat_from_landmarks_is_one_at_the_landmark_and_nowhere_more(shape):
     assert gaps == pytest.approx(1.0)
 
 
-def test_guides_are_joined_in_proportion_to_their_weights(shape):
+def test_guidances_are_combined_in_proportion_to_their_weights(shape):
     first, second = (heat_guidance(*[heat_features(shape.basis, shape.basis, np.array([v]))] * 2) for v in (5, 300))
     both: Any = combine_guidance([(12.0, first), (3.0, second)])
     gap = ((both.source[1] - both.target[2]) ** 2).sum()
@@ -108,7 +108,7 @@ def test_guides_are_joined_in_proportion_to_their_weights(shape):
     assert combine_guidance([(12.0, None), (0.0, second)]) is None
 
 
-def test_landmarks_are_doubted_when_most_of_the_others_are_met():
+def test_a_landmark_is_rejected_when_a_map_keeps_to_most_of_the_others():
     near, far = 0.02, 0.9
     assert rejected_landmarks(np.array([near, near, far, near, near]), 0.3).tolist() == [
         False,
@@ -154,7 +154,7 @@ def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
     assert len(coarsen(cloud, vertices).faces) == 0
 
 
-def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
+def test_a_large_shape_is_scored_on_a_coarse_proxy(monkeypatch):
     shape = prepare(blob(1500), SMALL)
     whole: Any = sample_for_scoring(shape, 200, landmarks=np.array([7]))
     monkeypatch.setattr("kfmaps.matching.quality.MAX_SURFACE_VERTICES", 900)
@@ -241,7 +241,7 @@ def test_a_candidate_knows_the_fit_that_it_began_with(shape, other, monkeypatch)
     assert found.fit is began[found.initialization]
 
 
-def test_points_inside_triangles_are_guided_as_the_map_was(shape, other):
+def test_points_inside_triangles_use_the_guidance_of_the_map(shape, other):
     found = match(shape, other, replace(SMALL, registration=None))
     assert found.precise_map is None
     near = nearest_vertices(found.precise(), shape.mesh)

@@ -56,7 +56,7 @@ def test_other_eigenvalues_show_in_the_conformal_difference_alone() -> None:
     np.testing.assert_allclose(D.mean(axis=0), np.eye(K - 1), atol=1e-6)
 
 
-def test_planted_stretches_are_the_distances() -> None:
+def test_known_changes_of_area_are_the_distances() -> None:
     one = np.diag([1, 1, 1.2, 1, 1, 1, 1, 1.0])
     own, links, found, values = collection([np.eye(K), one, np.eye(K), one @ one])
     latent = limit_shape(found.latent, first_maps(links), values)

@@ -15,9 +15,9 @@ from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_points
 from kfmaps.geometry.sampling import SpectralSamples
-from kfmaps.matching import candidates as found_by
+from kfmaps.matching import candidates as candidates_module
 from kfmaps.matching import orientation, search, search_result
-from kfmaps.matching import self_maps as within
+from kfmaps.matching import self_maps as self_maps_module
 from kfmaps.matching.candidates import candidates, distinct_maps, has_clear_map, refine_coarse, score_maps
 from kfmaps.matching.extremity_matching import asymmetry, extremity_difference, match_of_map
 from kfmaps.matching.finish import _doubt_exchanged
@@ -123,18 +123,18 @@ def test_extremities_are_matched_as_the_reflections_say():
 
 def test_those_that_change_distances_early_are_none(monkeypatch, on):
     some = find_self_maps(on.source, 100)
-    monkeypatch.setattr(within, "_MAX_CANDIDATES", 99)
+    monkeypatch.setattr(self_maps_module, "_MAX_CANDIDATES", 99)
     for one, other in zip(some, find_self_maps(on.source, 100), strict=True):
         np.testing.assert_array_equal(one, other)
     same, lost = np.eye(10), np.diag([1.0] + [0.0] * 9)
-    changed, moved_by = within._changes(np.stack([same, lost]), on.source)
+    changed, moved_by = self_maps_module._changes(np.stack([same, lost]), on.source)
     assert changed[0] == moved_by[0] == 0.0
     assert moved_by[1] > _MIN_DISPLACEMENT
     # All that are taken to one point lose all of their distance.
     assert changed[1] == pytest.approx(on.source.distances.mean())
 
 
-def test_a_kept_probe_knows_them(symmetric):
+def test_cached_samples_have_self_maps(symmetric):
     kept: Any = scoring_samples(symmetric.source)
     few = subsample(sample_for_scoring(symmetric.source, rng=kept_seed()), 400)
     for C, again in zip(self_maps(subsample(kept, 400), 100), find_self_maps(few, 100), strict=True):
@@ -275,7 +275,7 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
 
     assert min(turns()) < 0.05
     assert find_reflection(of, find_self_maps(of, 60)) is None  # one of two
-    monkeypatch.setattr(within, "_keeps_shot", lambda quality, _shape: quality.orientation < 0.5)
+    monkeypatch.setattr(self_maps_module, "_keeps_shot", lambda quality, _shape: quality.orientation < 0.5)
     assert not turns()
 
 
@@ -292,7 +292,7 @@ def test_a_worm_is_turned_about_its_axis():
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_two_copies_of_a_body_change_places(seed):
+def test_two_equal_components_may_be_exchanged(seed):
     one = two_poses(1500).source
     vertices = np.vstack([one.vertices, one.vertices + np.array([3.0, 0, 0])])
     # Every eigenvalue is double: rounding errors decide which functions of its eigenspace are taken.
@@ -314,12 +314,12 @@ def test_neighbors_differ_by_a_share_of_random_samples(on):
 
 def test_a_self_map_keeps_orientation_and_shot(on):
     kept = Quality(0.98, 0.05, 0.15, 0.8 * on.source.neighbor_difference, 0.01, 0.9, 0.05)
-    assert within._keeps_shot(kept, on.source)
-    assert not within._keeps_shot(replace(kept, orientation=-0.98), on.source)
-    assert not within._keeps_shot(replace(kept, descriptors=0.9 * on.source.neighbor_difference), on.source)
+    assert self_maps_module._keeps_shot(kept, on.source)
+    assert not self_maps_module._keeps_shot(replace(kept, orientation=-0.98), on.source)
+    assert not self_maps_module._keeps_shot(replace(kept, descriptors=0.9 * on.source.neighbor_difference), on.source)
 
 
-def test_a_map_that_only_a_composition_leads_to_is_composed_too(monkeypatch, symmetric):
+def test_a_map_that_is_found_only_by_composition_is_composed_too(monkeypatch, symmetric):
     composed = []
 
     def starts(best, pair, functions):
@@ -334,9 +334,9 @@ def test_a_map_that_only_a_composition_leads_to_is_composed_too(monkeypatch, sym
 
         composed.clear()
         with monkeypatch.context() as patch:
-            patch.setattr(found_by, "symmetry_inits", starts)
-            patch.setattr(found_by, "refine_coarse", rough)
-            patch.setattr(found_by, "refine_fine", lambda few, *_: few)
+            patch.setattr(candidates_module, "symmetry_inits", starts)
+            patch.setattr(candidates_module, "refine_coarse", rough)
+            patch.setattr(candidates_module, "refine_fine", lambda few, *_: few)
             candidates(symmetric.source, symmetric.target, SMALL, symmetric.samples, 0)
         return [len(best) for best in composed]
 
@@ -369,22 +369,22 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
 
 def wrong_area(one, symmetric):
     """Share of the target's samples that go far from where they should."""
-    true = symmetric.source.mesh.vertices[symmetric.truth[symmetric.on.target.samples.vertices]]
-    off = np.linalg.norm(symmetric.on.source.positions[one.points] - true, axis=1)
-    return float(symmetric.on.target.areas[off > SCORE.moved_distance].sum())
+    true = symmetric.source.mesh.vertices[symmetric.truth[symmetric.fine.target.samples.vertices]]
+    off = np.linalg.norm(symmetric.fine.source.positions[one.points] - true, axis=1)
+    return float(symmetric.fine.target.areas[off > SCORE.moved_distance].sum())
 
 
 @pytest.fixture(scope="module")
 def exchanged(symmetric):
     """The worst of the maps with two limbs exchanged."""
-    return max(exchange_limbs(symmetric.right, symmetric.on), key=lambda one: wrong_area(one, symmetric))
+    return max(exchange_limbs(symmetric.right, symmetric.fine), key=lambda one: wrong_area(one, symmetric))
 
 
 def test_alike_extremities_are_exchanged_two_at_a_time(symmetric):
-    match: Any = match_of_map(symmetric.right.points, symmetric.on.source, symmetric.on.target)
-    unlike = extremity_difference(symmetric.on.source, symmetric.on.source)
+    match: Any = match_of_map(symmetric.right.points, symmetric.fine.source, symmetric.fine.target)
+    unlike = extremity_difference(symmetric.fine.source, symmetric.fine.source)
     assert np.diag(unlike) == pytest.approx(0.0)
-    some = exchanged_matches(match, symmetric.on.source)
+    some = exchanged_matches(match, symmetric.fine.source)
     assert some
     for one in some:
         i, j = np.flatnonzero(one.source != match.source)
@@ -402,13 +402,13 @@ def test_only_the_limbs_are_exchanged(symmetric, exchanged):
 def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
     monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", replace(SCORE, max_behind=99.0))
     for begun in (symmetric.right, exchanged):
-        order = compare_exchanged(begun, symmetric.on, symmetric.copies)
+        order = compare_exchanged(begun, symmetric.fine, symmetric.proxies)
         assert len(order) == 2
         assert wrong_area(order[0], symmetric) < 0.03 < wrong_area(order[1], symmetric)
         assert order[0].score > order[1].score + SCORE.close_margin
 
 
-def test_an_exchange_that_comes_near_casts_doubt(symmetric, exchanged, monkeypatch):
+def test_exchanged_limbs_with_a_close_score_cast_a_doubt(symmetric, exchanged, monkeypatch):
     monkeypatch.setattr(search, "candidates", lambda *_what, **_how: [symmetric.right])
     plain = search_map(symmetric.source, symmetric.target, SMALL)
     assert plain.doubts == ()
@@ -449,11 +449,11 @@ def names(monkeypatch, pair, easy, on=None, landmarks=NO_LANDMARKS, descriptors=
         finalists.append(len(few))
         return few
 
-    original = found_by.refine_coarse
+    original = candidates_module.refine_coarse
     with monkeypatch.context() as patch:
-        patch.setattr(found_by, "SCORE", replace(SCORE, early_exit_score=easy))
-        patch.setattr(found_by, "refine_coarse", rough)
-        patch.setattr(found_by, "refine_fine", fine)
+        patch.setattr(candidates_module, "SCORE", replace(SCORE, early_exit_score=easy))
+        patch.setattr(candidates_module, "refine_coarse", rough)
+        patch.setattr(candidates_module, "refine_fine", fine)
         candidates(pair.source, pair.target, SMALL, on or pair.samples, 0, landmarks=landmarks, descriptors=descriptors)
     return set(tried), finalists[0]
 
@@ -461,10 +461,10 @@ def names(monkeypatch, pair, easy, on=None, landmarks=NO_LANDMARKS, descriptors=
 def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, symmetric):
     tried, finalists = names(monkeypatch, symmetric, -np.inf)
     assert tried == {"signs", "self-map", 0.0, 12.0}
-    assert finalists <= found_by._N_CLEAR_FINALISTS
+    assert finalists <= candidates_module._N_CLEAR_FINALISTS
     tried, finalists = names(monkeypatch, symmetric, np.inf)
     assert {"signs", "self-map", "SHOT", 0.0, 4.0, 12.0} < tried
-    assert finalists > found_by._N_CLEAR_FINALISTS
+    assert finalists > candidates_module._N_CLEAR_FINALISTS
 
 
 def test_what_the_user_says_is_heard(monkeypatch, symmetric):

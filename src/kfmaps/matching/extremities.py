@@ -54,7 +54,7 @@ def extremities(
     """Return the extremities of a shape.
 
     ``distances (c, c)``: geodesic distances between its first samples; ``mass (c,)``: their areas; ``mesh``: the
-    surface, or a coarse copy; ``rows (q,)``: the vertex of ``mesh`` of each sample, the first c of them those of
+    surface, or a coarse proxy; ``rows (q,)``: the vertex of ``mesh`` of each sample, the first c of them those of
     ``distances``; ``graph``: the geodesic graph of ``mesh`` of depth 1, if it has been computed.
     """
     mean_distance = distances @ (mass / mass.sum())

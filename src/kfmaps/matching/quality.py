@@ -27,11 +27,11 @@ from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.geometry.sampling import SampledBasis, SpectralSamples, spectral_samples, stratified_vertices
 from kfmaps.matching.extremities import Extremities, extremities
 from kfmaps.matching.score import SCORE, Quality
-from kfmaps.registration.evidence import coarse_copy
+from kfmaps.registration.evidence import shape_proxy
 from kfmaps.shape import Shape
 
 MAX_SURFACE_VERTICES = 6000
-"""Vertices above which distances and orientation are computed on a coarse copy with that many."""
+"""Vertices above which distances and orientation are computed on a coarse proxy with that many."""
 N_ORIENTATION_OPERATORS = 10
 """Functions whose orientation operators are compared."""
 
@@ -63,7 +63,7 @@ class ShapeSamples:
     positions: np.ndarray  # (q, 3)
     landmark_distances: np.ndarray  # (l, q): geodesic distances from landmarks to the samples
     extremities: Extremities
-    copy: CoarseProxy | None  # ``None`` for a point cloud
+    proxy: CoarseProxy | None  # ``None`` for a point cloud
     mirrored: bool = False  # whether the samples are of the mirror image
     # (m, k, k): self-maps (:func:`kfmaps.matching.self_maps.find_self_maps`) on the coarse samples, which are those of
     # the mirror image too; ``None`` where they have not been computed.
@@ -193,12 +193,12 @@ def sample_for_scoring(
         positions=shape.mesh.vertices[samples.vertices],
         landmark_distances=landmark_distances,
         extremities=extremities(distances, areas_of_first(samples.basis, len(first)), mesh, rows, graph),
-        copy=coarse_copy(shape),
+        proxy=shape_proxy(shape),
     )
 
 
 def sample_surface(shape: Shape, kept: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
-    """Return the surface or a coarse copy of a large one, the basis on it, and the numbers of the ``kept`` vertices."""
+    """Return the surface or a coarse proxy of a large one, the basis on it, and the numbers of the ``kept`` vertices."""
     if len(shape.mesh.vertices) <= MAX_SURFACE_VERTICES:
         return shape.mesh, to_numpy(shape.basis.functions), kept
     vertices = stratified_vertices(shape.basis, MAX_SURFACE_VERTICES, 0, np.unique(kept))
@@ -241,7 +241,7 @@ def mirror_samples(shape: ShapeSamples) -> ShapeSamples:
         descriptors=None if shape.descriptors is None else mirror_shot(shape.descriptors),
         orientation=None if shape.orientation is None else -shape.orientation,
         extremities=shape.extremities.mirrored(),
-        copy=shape.copy and shape.copy.mirrored(),
+        proxy=shape.proxy and shape.proxy.mirrored(),
         mirrored=not shape.mirrored,
     )
 

@@ -26,7 +26,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.registration.alternating_registration import ProxyPair, proxy_pair
-from kfmaps.registration.evidence import FINE_VERTICES, PATIENT, coarse_copy, deform, registered_shot_error
+from kfmaps.registration.evidence import FINE_VERTICES, PATIENT, shape_proxy, deform, registered_shot_error
 from kfmaps.shape import Shape, mirror_image
 
 N_REGISTERED = 3
@@ -41,13 +41,13 @@ class ProxyCache:
 
     source: Shape
     target: Shape
-    copies: tuple[CoarseProxy | None, CoarseProxy | None]  # those that the samples have
+    sample_proxies: tuple[CoarseProxy | None, CoarseProxy | None]  # those that the samples have
     mirrored: bool = False  # whether the second is of the target's mirror image
 
     @classmethod
     def of(cls, source: Shape, target: Shape, samples: SamplePair) -> ProxyCache:
         """Return the cache of two shapes, with the coarse proxies of their samples."""
-        return cls(source, target, (samples.source.copy, samples.target.copy), samples.target.mirrored)
+        return cls(source, target, (samples.source.proxy, samples.target.proxy), samples.target.mirrored)
 
     @cached_property
     def image(self) -> Shape:
@@ -62,12 +62,12 @@ class ProxyCache:
     @cached_property
     def coarse(self) -> ProxyPair | None:
         """The proxies of the samples."""
-        return self._pair(*self.copies)
+        return self._pair(*self.sample_proxies)
 
     @cached_property
     def fine(self) -> ProxyPair | None:
         """Proxies with more vertices."""
-        a, b = coarse_copy(self.source, FINE_VERTICES), coarse_copy(self.target, FINE_VERTICES)
+        a, b = shape_proxy(self.source, FINE_VERTICES), shape_proxy(self.target, FINE_VERTICES)
         return self._pair(a, b.mirrored() if b is not None and self.mirrored else b)
 
     def _pair(self, a: CoarseProxy | None, b: CoarseProxy | None) -> ProxyPair | None:

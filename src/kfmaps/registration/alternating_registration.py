@@ -42,26 +42,26 @@ class ProxyPair:
 
     source: Shape
     target: Shape
-    copies: tuple[CoarseProxy, CoarseProxy]
+    proxies: tuple[CoarseProxy, CoarseProxy]
     forth: MeshPair  # from the source's proxy to the target's, and back
     back: MeshPair
 
     @cached_property
     def bases(self) -> tuple[SampledBasis, SampledBasis]:
         """The bases of both shapes at the vertices of their proxies."""
-        a, b = self.copies
+        a, b = self.proxies
         return _sampled_basis(self.source.basis, a), _sampled_basis(self.target.basis, b)
 
     def swapped(self) -> ProxyPair:
         """Return the same for maps the other way."""
-        a, b = self.copies
+        a, b = self.proxies
         return ProxyPair(self.target, self.source, (b, a), self.back, self.forth)
 
     def nearest(self, landmarks: np.ndarray) -> np.ndarray:
         """Return the vertices of the proxies that are nearest to ``landmarks (l, 2)``, (l, 2)."""
         columns = [
             KDTree(shape.mesh.vertices[proxy.vertices]).query(shape.mesh.vertices[vertices])[1]
-            for shape, proxy, vertices in zip((self.source, self.target), self.copies, landmarks.T, strict=True)
+            for shape, proxy, vertices in zip((self.source, self.target), self.proxies, landmarks.T, strict=True)
         ]
         return np.stack(columns, axis=1)
 
@@ -74,11 +74,11 @@ class AlternatingResult:
     registered_vertices: np.ndarray  # (n_s, 3): of the source, on the target
 
 
-def proxy_pair(source: Shape, target: Shape, copies: tuple[CoarseProxy, CoarseProxy]) -> ProxyPair:
-    """Return coarse proxies, ``copies``, of two shapes with everything that their registrations share."""
-    a, b = (deformable_mesh(proxy.mesh, {}) for proxy in copies)
+def proxy_pair(source: Shape, target: Shape, proxies: tuple[CoarseProxy, CoarseProxy]) -> ProxyPair:
+    """Return coarse proxies, ``proxies``, of two shapes with everything that their registrations share."""
+    a, b = (deformable_mesh(proxy.mesh, {}) for proxy in proxies)
     query_a, query_b = (closest_point_query(body.mesh, around=body.around) for body in (a, b))
-    return ProxyPair(source, target, copies, mesh_pair(a, b.mesh, query_b), mesh_pair(b, a.mesh, query_a))
+    return ProxyPair(source, target, proxies, mesh_pair(a, b.mesh, query_b), mesh_pair(b, a.mesh, query_a))
 
 
 def alternating_registration(
@@ -88,7 +88,7 @@ def alternating_registration(
 
     ``C (k_t, k_s)``; ``guidance``: of the refinements, for all vertices; ``landmarks (l, 2)``: vertices of the shapes.
     """
-    a, b = pair.copies
+    a, b = pair.proxies
     k = min(*(len(basis.eigenvalues) for basis in pair.bases), _REFINE.stop)
     refine = replace(_REFINE, stop=k, start=min(_REFINE.start, k))
     guidance, landmarks = guidance and guidance.at(a.vertices, b.vertices), pair.nearest(landmarks)

@@ -52,7 +52,7 @@ class DeformationEnergy:
     strain: float
 
 
-def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
+def shape_proxy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
     """Return a coarse proxy of a shape with about so many ``vertices``; ``None`` where it has too few faces."""
     min_faces = 12  # faces that a proxy must have
     if len(shape.mesh.faces) < min_faces:
@@ -84,7 +84,7 @@ def registered_shot_error(C: np.ndarray, pair: ProxyPair) -> float | None:
 def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndarray], tuple[MeshPair, np.ndarray]]:
     """Return the pair of meshes and the point map of ``C (k_t, k_s)`` between the proxies, for both directions."""
     k_t, k_s = C.shape
-    a, b = pair.copies
+    a, b = pair.proxies
     images = to_numpy(pair.source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(pair.target.basis.functions)[b.vertices, :k_t])
     key = (k_t, C.tobytes())

@@ -1,6 +1,6 @@
 """Place a part on a whole: the best of several placements, and its margin over the others.
 
-1. Both shapes are sampled, large ones on coarse copies (:mod:`~kfmaps.matching.partial.samples`).
+1. Both shapes are sampled, large ones as coarse proxies (:mod:`~kfmaps.matching.partial.samples`).
 2. Samples are placed at many scales, and the likeliest placements are refined
    (:mod:`~kfmaps.matching.partial.scale_search`).
 3. The part is registered quickly from each placement, and alternatives that place it elsewhere are compared
@@ -49,7 +49,7 @@ from kfmaps.matching.partial.scale_search import (
 )
 from kfmaps.matching.score import SCORE, by_score, select_distinct, verdict
 
-_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of the copy
+_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse proxy, and of the proxy
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
 
 
@@ -100,11 +100,11 @@ def place_part(
     fixed = _same_units(settings.scale, ratio, both_partial)
     if fixed and ratio is None:
         raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
-    copies = [_coarse_copy(mesh, marks) for mesh, marks in ((part, pairs[:, 0]), (whole, pairs[:, 1]))]
+    proxies = [_placed_proxy(mesh, vertices) for mesh, vertices in ((part, pairs[:, 0]), (whole, pairs[:, 1]))]
     counts = settings.samples, settings.whole_samples
     samples = [
-        part_samples(copy.mesh, count, copy.owner[marks], task.rng)
-        for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
+        part_samples(proxy.mesh, count, proxy.owner[vertices], task.rng)
+        for proxy, count, vertices in zip(proxies, counts, pairs.T, strict=True)
     ]
     small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
@@ -113,10 +113,10 @@ def place_part(
     found = _search_placements(pair, task, report)
     report(0.75)
     last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
-    unguided = (_register_fully(last, pair, report, guided=False) if len(pairs) else last).vertices[copies[0].owner]
-    if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
+    unguided = (_register_fully(last, pair, report, guided=False) if len(pairs) else last).vertices[proxies[0].owner]
+    if any(len(proxy.vertices) < len(mesh.vertices) for proxy, mesh in zip(proxies, (part, whole), strict=True)):
         on = PartSurface(whole)
-        last = refine_registration(last, copies[0], part, on, pairs)
+        last = refine_registration(last, proxies[0], part, on, pairs)
     paid = found[0].evidence.landmark_cost
     scores = tuple(one.score + paid for one in found)
     return PlacedPart(last, find_overlap(last, on), scores, margin(found, len(pairs)), unguided)
@@ -220,8 +220,8 @@ def _places_differ(one: Placement, other: Placement) -> bool:
     return float((one.placed.match == other.placed.match).mean()) < min_share
 
 
-def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
-    """Return the copy of a mesh that is placed: a coarse one of a large mesh, with all landmarks."""
+def _placed_proxy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
+    """Return the proxy of a mesh that is placed, coarse where the mesh is large, with all landmarks."""
     count = _PROXY_VERTICES if len(mesh.vertices) > _PROXY_FROM else len(mesh.vertices)
     return coarse_proxy(mesh, spread_vertices(mesh, count, landmarks))
 

@@ -81,16 +81,16 @@ def register_part(
 
 
 def refine_registration(
-    found: PartRegistration, copy: CoarseProxy, part: Mesh, whole: PartSurface, landmarks: np.ndarray
+    found: PartRegistration, proxy: CoarseProxy, part: Mesh, whole: PartSurface, landmarks: np.ndarray
 ) -> PartRegistration:
-    """Return the registration of a ``part`` that starts from the one ``found`` for coarse copies of part and whole.
+    """Return the registration of a ``part`` that starts from the one ``found`` for coarse proxies of part and whole.
 
-    ``copy``: the coarse copy of the part; ``landmarks (l, 2)``: vertices of the part and of the whole.
+    ``proxy``: the coarse proxy of the part; ``landmarks (l, 2)``: vertices of the part and of the whole.
     """
     rest, x = deformable_mesh(scale_mesh(part, found.scale)), found.vertices
     if len(x) < len(part.vertices):
         turns = rotations(build_arap(found.rest), x)
-        x = embedded_deformation(replace(copy, mesh=found.rest), rest.mesh, x, turns)
+        x = embedded_deformation(replace(proxy, mesh=found.rest), rest.mesh, x, turns)
     pull = landmark_pull(rest, landmarks[:, 0], whole.mesh.vertices[landmarks[:, 1]])
     return _register(rest, x, found.scale, whole, pull, _STIFFNESS[-1:], 2, lambda _done: None)
 
