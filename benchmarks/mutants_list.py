@@ -46,7 +46,7 @@ MUTANTS = tuple(
             "return kernel_diagonal(self.a, X) + kernel_diagonal(self.b, X)",
             KERNEL,
         ),
-        ("gamma = sharpness / typical", "gamma = sharpness * typical", KERNEL),
+        ("gamma = bandwidth_scale / typical", "gamma = bandwidth_scale * typical", KERNEL),
         ("float(np.sqrt(gamma))", "float(gamma)", f"{FORMULAS} -k typical_pair"),
         ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
         ("spectrum > least * top", "spectrum > 0.1 * least * top", f"{FORMULAS} -k dropped"),
@@ -468,8 +468,8 @@ MUTANTS = tuple(
             "test_registration_accepted",
         ),
         (
-            "held = np.clip(2 * (confidence - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)",
-            "held = np.zeros(len(confidence))",
+            "pinned = np.clip(2 * (confidence - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)",
+            "pinned = np.zeros(len(confidence))",
             "test_registration_accepted",
         ),
         (
@@ -549,8 +549,8 @@ MUTANTS = tuple(
             "test_parts_registration",
         ),
         (
-            "np.where(bent.inside, _half_at(bent.places.distances, _OVERLAP_WIDTH), 0.0)",
-            "_half_at(bent.places.distances, _OVERLAP_WIDTH)",
+            "np.where(registered.inside, _half_at(registered.places.distances, _OVERLAP_WIDTH), 0.0)",
+            "_half_at(registered.places.distances, _OVERLAP_WIDTH)",
             "test_parts_registration",
         ),
         (
@@ -634,10 +634,10 @@ MUTANTS = tuple(
             "np.flatnonzero(sync.component <= number)",
             "test_shape_differences -k alone",
         ),
-        # unlike shapes, bent and matched in turn
+        # unlike shapes, registered and refined in turn
         (
-            "refined = refine(refined.functional_map, *pair.bases, guide=both)",
-            "refined = refine(refined.functional_map, *pair.bases, guide=guidance)",
+            "refined = refine(refined.functional_map, *pair.bases, guidance=both)",
+            "refined = refine(refined.functional_map, *pair.bases, guidance=guidance)",
             ALTERNATE,
         ),
         (
@@ -771,7 +771,7 @@ MUTANTS = tuple(
             "(samples.descriptors - _descriptors(other, nearest_vertices))",
             "test_registration_evidence -k squared",
         ),
-        ("candidates=[*led, *free]", "candidates=led", "test_registration_evidence -k only_refine"),
+        ("candidates=[*guided, *free]", "candidates=led", "test_registration_evidence -k only_refine"),
         (
             "R.transpose(0, 2, 1) @ edge_covariances(energy, x)",
             "edge_covariances(energy, x)",
@@ -1091,7 +1091,7 @@ MUTANTS = tuple(
             "test_face_orientation -k undamaged_shapes",
         ),
         # drawn blindly with seed 20261124, or reached by no test before
-        ("and last - now <= how.rtol", "and last + now <= how.rtol", "test_formulations -k gains_little"),
+        ("and last - now <= options.rtol", "and last + now <= options.rtol", "test_formulations -k gains_little"),
         ("(2.4 * k + 60)", "(2.4 / k + 60)", "test_eigensolver_loose -k progress"),
         ("pinv(maps, rcond=0.05)", "pinv(maps, rcond=0.1)", "test_shape_differences -k hardly"),
         ("lower, bound = _polar_step(energy, right, point, bound)", "lower = None", "test_formulations -k bends_down"),

@@ -72,7 +72,7 @@ def measure(pair: Pair) -> list[dict[str, float | str]]:
         for probes in (4, 8, 16, 32):
             start = time.process_time()
             with limit_threads(1):
-                answer = approximate_nearest(queries, points, probes=probes)
+                answer = approximate_nearest(queries, points, n_probe=probes)
             answers.append((f"{probes} cells", time.process_time() - start, answer[some]))
         for search, spent, answer in answers:
             excess = np.linalg.norm(queries[some] - points[answer], axis=1) / np.maximum(best, 1e-300) - 1

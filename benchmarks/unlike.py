@@ -3,13 +3,13 @@
     python benchmarks/unlike.py --data DIR [--half choice] [--pairs 3] [--seeds 0,1]
 
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
-evenly (:mod:`kfmaps.registration.local_scaling`) while shapes are bent and matched in turn and in the last fit; with
-maps that begin with the likeliest pairings of the tips of limbs beside
+evenly (:mod:`kfmaps.registration.local_scaling`) while shapes are registered and refined in turn and in the last fit;
+with maps that begin with the likeliest matches of extremities beside
 (:func:`kfmaps.matching.registration_refine.refine_by_registration`); with torn area counted where others may be less
 torn (:func:`kfmaps.matching.finish.better_match`); and with parts that touch told apart in the end
-(:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for benchmarks/automatic.py.
-The half ``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on;
-``choice`` has pairs of two such shapes. Three pairs of either set take about ten minutes.
+(:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for benchmarks/automatic.py. The
+half ``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on; ``choice``
+has pairs of two such shapes. Three pairs of either set take about ten minutes.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ def symmetric():
 
 
 def run(C, basis, weight, led):
-    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, guide=led).functional_map
+    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, guidance=led).functional_map
 
 
 def test_without_weight_or_guidance_it_is_plain_zoomout(symmetric):
@@ -60,7 +60,7 @@ def test_on_samples_of_large_shapes_the_guidance_is_sampled_too():
     basis = laplace_basis(mesh, 50)
     zoom = ZoomOut(6, 40, 8, samples=200, descriptor_weight=12.0)
     wrong = np.diag([1.0, -1, 1, 1, 1, 1])
-    found = zoom(wrong, basis, basis, guide=descriptor_guidance(mesh.vertices, mesh.vertices))
+    found = zoom(wrong, basis, basis, guidance=descriptor_guidance(mesh.vertices, mesh.vertices))
     assert np.linalg.norm(mesh.vertices[found.target_to_source] - mesh.vertices, axis=1).mean() < 0.02
 
 

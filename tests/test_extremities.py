@@ -279,7 +279,7 @@ def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, probes, m
     def energy() -> float:  # a pair keeps what it has found
         return deform(SIGNS, proxy_pair(creature[0], creature[0], (probes[0].proxy, probes[0].proxy))).energy
 
-    usual, fit = energy(), NonRigid.bent
+    usual, fit = energy(), NonRigid.register_vertices
     failing = [True, False]
 
     def falls(self, *what):
@@ -287,7 +287,7 @@ def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, probes, m
             raise NotConverged("apart")
         return fit(self, *what)
 
-    monkeypatch.setattr(NonRigid, "bent", falls)
+    monkeypatch.setattr(NonRigid, "register_vertices", falls)
     assert 0.3 < energy() / usual < 3.0
     failing = [True, True]
     assert energy() == _MAX_ENERGY
@@ -296,7 +296,7 @@ def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, probes, m
 def test_a_map_that_is_scored_again_is_registered_once(itself, monkeypatch):
     fits = []
     kept = lambda _self, pair, points: (fits.append(points) or pair.body.mesh.vertices, 0.0)  # noqa: E731
-    monkeypatch.setattr(NonRigid, "bent", kept)
+    monkeypatch.setattr(NonRigid, "register_vertices", kept)
     assert deform(np.eye(40), itself) == deform(np.eye(40), itself)
     assert len(fits) == 2  # forth and back
     deform(np.eye(40), itself, PATIENT)
@@ -308,7 +308,7 @@ def test_guidance_by_extremities_is_the_same_with_the_graphs_at_hand(creature):
     source, target = (shape.mesh for shape in creature[:2])
     on_both = ExtremityVertices(np.array([0, 7, 30]), np.array([3, 9, 40]), (0.5, 0.6))
     plain, given = (
-        on_both.guide(source, target, graphs)
+        on_both.guidance(source, target, graphs)
         for graphs in ((None, None), (geodesic_graph(source, 1), geodesic_graph(target, 1)))
     )
     assert np.array_equal(plain.source, given.source)

@@ -330,7 +330,7 @@ def test_approximate_nearest_compares_points_of_any_length(rng):
     queries = points[rng.permutation(400)[:100]] * (1 + 1e-3 * rng.normal(size=(100, 12)))
     wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
     for size in (400, 50):
-        np.testing.assert_array_equal(approximate_nearest(queries, points, size=size, probes=400), wanted)
+        np.testing.assert_array_equal(approximate_nearest(queries, points, size=size, n_probe=400), wanted)
 
 
 def test_the_damping_of_samples_lies_between_least_squares_and_projection(small_basis, rng):

@@ -143,7 +143,7 @@ def test_approximate_nearest_misses_few_and_none_by_much(pair):
     assert np.mean(some != exact[::70]) < 0.03
     errors = [geodesic_distance_pairs(source.mesh, f, truth).mean() for f in (exact, found)]
     assert errors[1] < 1.02 * errors[0]
-    few = approximate_nearest(queries, points, probes=1)
+    few = approximate_nearest(queries, points, n_probe=1)
     assert np.mean(few != exact) > np.mean(found != exact)  # more probes find more
 
 
@@ -162,7 +162,7 @@ def test_approximate_nearest_takes_empty_and_tiny_sets(rng):
     assert approximate_nearest(np.zeros((0, 40)), points).shape == (0,)
     assert set(approximate_nearest(np.ones((500, 40)), np.ones((3, 40)))) <= {0, 1, 2}
     with pytest.raises(InvalidInput, match="probes"):
-        approximate_nearest(points, points, probes=0)
+        approximate_nearest(points, points, n_probe=0)
 
 
 @pytest.mark.parametrize("choose", [spectral_samples, stratified_samples])

@@ -50,16 +50,16 @@ class Pretended:
 
     def __init__(self, pair: datasets.ExamplePair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
         self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn
-        self.held: list[Any] = []
+        self.pinned: list[Any] = []
         self.landmarks: np.ndarray | None = None
 
     def __call__(
-        self, source: Mesh, *_: Any, held: np.ndarray | None, landmarks: np.ndarray | None, **_more: Any
+        self, source: Mesh, *_: Any, pinned: np.ndarray | None, landmarks: np.ndarray | None, **_more: Any
     ) -> Registration:
-        self.held.append(held)
+        self.pinned.append(pinned)
         self.landmarks = landmarks
         points = self.pair.truth.copy()
-        if held is None or self.stubborn:
+        if pinned is None or self.stubborn:
             points[self.spot] = np.random.default_rng(0).permutation(points[self.spot])
         place = vertex_point_map(points, source)
         return Registration(source.vertices, place.faces, place.weights, 0.0, self.gap)
@@ -85,10 +85,10 @@ def test_a_registration_that_worsens_a_region_is_repeated_with_the_map_pinned_th
     spot = spot_of(pair, 0.05)
     finish = Pretended(pair, spot)
     last = end(pair, finish)
-    first, held = finish.held
+    first, pinned = finish.pinned
     assert first is None
-    assert held[spot].mean() > 0.5
-    assert np.delete(held, spot).mean() < 0.05
+    assert pinned[spot].mean() > 0.5
+    assert np.delete(pinned, spot).mean() < 0.05
     assert (last.fit.accepted, last.fit.pinned) == (True, True)
     assert last.fit.worsened <= _MAX_WORSENED_AREA
     np.testing.assert_array_equal(last.target_to_source, pair.truth)
@@ -111,12 +111,12 @@ def test_a_registration_that_improves_more_than_it_worsens_is_kept(pair: dataset
     last = end(pair, finish, wrong)
     assert last.fit.accepted
     assert last.fit.improved > last.fit.worsened > _MAX_WORSENED_AREA
-    assert len(finish.held) == 2
+    assert len(finish.pinned) == 2
     # A fit that lets sizes change changes distances: what it has changed is not held if it is kept.
     for points, accepted, times in ((wrong, True, 1), (None, False, 2)):
-        finish.held, finish.local_scaling = [], 0.01
+        finish.pinned, finish.local_scaling = [], 0.01
         again = end(pair, finish, points)
-        assert (again.fit.accepted, len(finish.held)) == (accepted, times)
+        assert (again.fit.accepted, len(finish.pinned)) == (accepted, times)
         assert not (accepted and again.fit.pinned)
 
 
@@ -124,7 +124,7 @@ def test_a_gap_speaks_first(pair: datasets.ExamplePair) -> None:
     finish = Pretended(pair, spot_of(pair, 0.05), gap=1.01 * _MAX_GAP)
     last = end(pair, finish)
     assert (last.fit.reason, last.fit.after, last.fit.accepted) == ("gap", None, False)
-    assert len(finish.held) == 1
+    assert len(finish.pinned) == 1
 
 
 @pytest.mark.parametrize(
@@ -200,7 +200,7 @@ def test_landmarks_pull_their_surroundings_bad_ones_hardly_and_pinned_vertices_s
     assert misled.mean() < 1.1 * free.mean()
     half, own = truth[:, 1] > np.median(truth[:, 1]), source.vertices[slid]
     away, stays = (
-        errors(fit, source, own) for fit in (plain, NonRigid()(source, target, slid, held=half.astype(float)))
+        errors(fit, source, own) for fit in (plain, NonRigid()(source, target, slid, pinned=half.astype(float)))
     )
     assert stays[half].mean() < 0.6 * away[half].mean()
     assert stays[~half].mean() > 0.8 * away[~half].mean()

@@ -51,7 +51,7 @@ def test_many_maps_at_once_are_refined_as_one_is(shape, other, weight):
     against = np.float32(weight) * descriptor_cost(led) if weight else None
     maps, points = batched_zoomout(starts, a.basis, b.basis, (6, 14, 22, 30), against)
     for C, here, start in zip(maps, points, starts, strict=True):
-        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, guide=led)
+        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, guidance=led)
         np.testing.assert_allclose(C, one.functional_map, atol=2e-3)
         assert (here != one.target_to_source).mean() < 0.02
 

@@ -37,7 +37,7 @@ def format_seconds(seconds: float) -> str:
 
 
 VERDICTS = {
-    "landmarks": "One fit, led by the landmarks and compared with no other map.",
+    "landmarks": "One fit, guided by the landmarks and compared with no other map.",
     "sure": "Very likely right.",
     "likely": "Probably right. Look at it before you rely on it.",
     "ambiguous": "Another map fits about as well. Compare the two.",

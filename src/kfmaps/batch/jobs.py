@@ -42,7 +42,7 @@ class WorkerPool:
 
     ``workers``: number of processes on this machine, by default one for each core, or the address of a running Dask
     scheduler whose workers are used; ``progress``: for :meth:`map`; ``log``: called when a worker dies
-    (:data:`kfmaps.batch.progress.Log`). ``begun``: start times of the running items by their number.
+    (:data:`kfmaps.batch.progress.Log`). ``started``: start times of the running items by their number.
     """
 
     def __init__(
@@ -54,7 +54,7 @@ class WorkerPool:
         self.workers = workers
         self.progress = progress or (lambda _what, _done, _of: None)
         self.log = log or (lambda *_, **__: None)
-        self.begun: dict[int, float] = {}
+        self.started: dict[int, float] = {}
         self._stack, self._client = ExitStack(), None
         self._labels: dict[object, str] = {}
         self._deaths = 0
@@ -103,14 +103,14 @@ class WorkerPool:
         items: Sequence[_Item],
         *,
         label: Callable[[_Item], str] = str,
-        n_begun: Callable[[_Item], int] | None = None,
+        n_starts: Callable[[_Item], int] | None = None,
     ) -> Generator[tuple[int, _Value | Exception]]:
         """Yield the number of each item with its value or its exception, in the order in which they finish.
 
         Dask gets only as many tasks as can run at once, so there may be any number of items. It gives the tasks of a
         dead worker to another.
 
-        ``label``: name of an item in the log; ``n_begun``: how often work on an item has begun. Dask blames every task
+        ``label``: name of an item in the log; ``n_starts``: how often work on an item has begun. Dask blames every task
         of a dead worker, so an item that has not begun :data:`MAX_DEATHS` times is tried again.
         """
         from distributed import CancelledError, KilledWorker, as_completed
@@ -118,7 +118,7 @@ class WorkerPool:
 
         client = self.client
         finished = as_completed(loop=client.loop)
-        before = [n_begun(item) if n_begun else 0 for item in items]
+        before = [n_starts(item) if n_starts else 0 for item in items]
         waiting = deque(range(len(items)))
         running: dict[Future, int] = {}
         try:
@@ -127,11 +127,11 @@ class WorkerPool:
                     number = waiting.popleft()
                     future = client.submit(function, items[number], pure=False)
                     self._labels[future.key] = label(items[number])
-                    running[future], self.begun[number] = number, time.monotonic()
+                    running[future], self.started[number] = number, time.monotonic()
                     finished.add(future)
                 future = next(finished)
                 number = running.pop(future)
-                del self._labels[future.key], self.begun[number]
+                del self._labels[future.key], self.started[number]
                 value: _Value | Exception
                 try:
                     # as_completed does not fetch values, since it would lose an error and wait for ever.
@@ -143,7 +143,7 @@ class WorkerPool:
                     got = f"none for {NO_WORKERS}"
                     raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from None
                 except KilledWorker as error:
-                    if n_begun and n_begun(items[number]) - before[number] < MAX_DEATHS:
+                    if n_starts and n_starts(items[number]) - before[number] < MAX_DEATHS:
                         waiting.append(number)
                         continue
                     value = error
@@ -151,7 +151,7 @@ class WorkerPool:
                     value = error
                 yield number, value
         finally:
-            self.begun.clear()
+            self.started.clear()
             with suppress(Exception):  # a scheduler that is lost has nothing to cancel
                 client.cancel(list(running), force=True)
 

@@ -121,7 +121,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
     work_left = _work_left(plan)
 
     def report(result: Result | None = None) -> None:
-        elapsed = {number: time.monotonic() - since for number, since in pool.begun.items()}
+        elapsed = {number: time.monotonic() - since for number, since in pool.started.items()}
         status = RunStatus(
             shapes_done=len(prepared),
             shapes=len(shapes),
@@ -139,7 +139,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
         callback(status, result)
 
     report()
-    with closing(pool.imap(prepare_shape, shapes, n_begun=_attempts)) as values:
+    with closing(pool.imap(prepare_shape, shapes, n_starts=_attempts)) as values:
         for number, value in values:
             task = shapes[number]
             preparation = value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
@@ -149,7 +149,7 @@ def _match_pairs(plan: Plan, pool: WorkerPool, callback: Callback | None, log: L
                 log("shape failed", message, shape=task.name, reason=reason)
             report()
     jobs = [(task, prepared[task.source.entry], prepared[task.target.entry]) for task in plan.todo]
-    results = pool.imap(match_pair, jobs, label=lambda job: str(job[0]), n_begun=lambda job: _attempts(job[0]))
+    results = pool.imap(match_pair, jobs, label=lambda job: str(job[0]), n_starts=lambda job: _attempts(job[0]))
     with closing(results) as values:
         for number, value in values:
             result = record_failure(plan.todo[number], error_text(value)) if isinstance(value, Exception) else value

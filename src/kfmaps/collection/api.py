@@ -201,7 +201,7 @@ def match_collection(
     pairs = []
     for i, (a, b) in enumerate(ends):
         both, both_samples = (prepared[a], prepared[b]), (samples[a], samples[b])
-        result = given[a, b] if given else match(*both, config, rng=rng, probes=both_samples)
+        result = given[a, b] if given else match(*both, config, rng=rng, shape_samples=both_samples)
         progress("pairs", i + 1, len(ends))
         is_part = (result.target_to_source < 0).any()
         with one_blas_thread():

@@ -31,7 +31,7 @@ class Config:
     basis: BasisConfig = setting(BasisConfig, "eigenfunctions of the functional map")
     descriptors: DescriptorConfig = setting(DescriptorConfig, "descriptors, which the map preserves")
     kernel: KernelLike = setting(Gaussian, "the kernel", option="--kernel")
-    bandwidth_scale: float = setting(0.3, "sharpness: automatic gamma times the median squared distance", above=0)
+    bandwidth_scale: float = setting(0.3, "automatic gamma times the median squared distance", above=0)
     nystrom: NystromConfig = setting(NystromConfig, "the approximation of the kernel")
     full_kernel: bool = setting(False, "the exact kernel in row blocks (equations 8 and 10 to 12), no Nyström; slow")
     weights: Weights = setting(Weights, "weights of the terms")

@@ -199,9 +199,9 @@ def _merged(support: _Support, side: float) -> _Support:
     centred = support.points - w @ support.points / w.sum()
     axes = np.linalg.eigh((centred * w[:, None]).T @ centred)[1]
     cell = np.rint(centred @ axes / side).astype(np.int64)
-    looks = support.normals @ axes
-    main = np.abs(looks).argmax(axis=1)
-    face = 2 * main + (np.take_along_axis(looks, main[:, None], axis=1)[:, 0] > 0)
+    components = support.normals @ axes
+    main = np.abs(components).argmax(axis=1)
+    face = 2 * main + (np.take_along_axis(components, main[:, None], axis=1)[:, 0] > 0)
     group = np.zeros(len(w), dtype=np.int64)
     for column in (*cell.T, face):  # rows are sorted ten times as slowly as numbers
         column = column - column.min()

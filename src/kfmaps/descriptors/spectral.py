@@ -190,13 +190,15 @@ def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "
     return rows
 
 
-def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array) -> tuple[Array, Array]:
+def normalize(
+    D_s: Array, D_t: Array, normalisation: Normalisation, mass_s: Array, mass_t: Array
+) -> tuple[Array, Array]:
     """Scale descriptors by the same numbers on both shapes.
 
     Parameters
     ----------
     D_s, D_t : (n_s, d), (n_t, d)
-    how : str
+    normalisation : str
         ``"none"``; ``"norm"``: each descriptor by its A-norm, the root of the mean of both shapes' squares (NO17, made
         symmetric); ``"max"``: each by its largest absolute value on both; ``"row"``: all by one number, the largest row
         norm on both, so that every vertex lies in the unit ball; ``"variance"``: each first centred by its mean over
@@ -210,26 +212,28 @@ def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t:
     (n_s, d), (n_t, d)
     """
     xp = namespace(D_s, D_t)
-    if how not in get_args(Normalisation):
-        raise refuse("normalisation", "one of " + ", ".join(get_args(Normalisation)), repr(how), "choose one of them")
+    if normalisation not in get_args(Normalisation):
+        raise refuse(
+            "normalisation", "one of " + ", ".join(get_args(Normalisation)), repr(normalisation), "choose one of them"
+        )
     check(D_s, "source descriptors", shape=(mass_s.shape[0], None), remedy="give one row per source vertex")
     check(D_t, "target descriptors", shape=(mass_t.shape[0], D_s.shape[1]), remedy="give the same descriptors on both")
-    if how == "none":
+    if normalisation == "none":
         return D_s, D_t
     w_s, w_t = (0.5 * m[:, None] / xp.sum(m) for m in (mass_s, mass_t))
     size = xp.maximum(xp.max(xp.abs(D_s), axis=0), xp.max(xp.abs(D_t), axis=0))
-    if how == "variance":
+    if normalisation == "variance":
         mean = xp.sum(w_s * D_s, axis=0, keepdims=True) + xp.sum(w_t * D_t, axis=0, keepdims=True)
         D_s, D_t = D_s - mean, D_t - mean
-    if how in ("norm", "variance"):
+    if normalisation in ("norm", "variance"):
         scale = xp.sqrt(xp.sum(w_s * D_s * D_s, axis=0) + xp.sum(w_t * D_t * D_t, axis=0))
-    elif how == "max":
+    elif normalisation == "max":
         scale = size
     else:
         longest = xp.sqrt(xp.maximum(xp.max(xp.sum(D_s * D_s, axis=1)), xp.max(xp.sum(D_t * D_t, axis=1))))
         scale = xp.broadcast_to(longest, (D_s.shape[1],))
     # What is left of a constant without its mean is rounding, and must not be scaled up.
     scale = xp.where(scale > 1e-12 * size, scale, xp.ones_like(scale))[None, :]
-    if how == "variance":
+    if normalisation == "variance":
         scale = scale * D_s.shape[1] ** 0.5
     return D_s / scale, D_t / scale

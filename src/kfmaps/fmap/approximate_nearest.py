@@ -28,16 +28,16 @@ def approximate_nearest(
     points: np.ndarray,
     *,
     size: int = 64,
-    probes: int = N_PROBE,
+    n_probe: int = N_PROBE,
 ) -> np.ndarray:
     """Return for each query a point that is nearly the closest, (q,) int64.
 
     ``queries (q, d)`` and ``points (p, d)``: at least one point. More is missed where rows with similar leading columns
     are not similar, as those of smooth functions on a surface are, the lowest first. ``size``: about how many points a
-    cell has; with ``p`` all points are compared, in single precision. ``probes``: cells that each query probes.
+    cell has; with ``p`` all points are compared, in single precision. ``n_probe``: cells that each query probes.
     """
     p, q = len(points), len(queries)
-    probes = check_count(probes, "probes")
+    n_probe = check_count(n_probe, "n_probe")
     centre = points.mean(axis=0, dtype=np.float64)
     unit = float((points.max(axis=0) - points.min(axis=0)).max()) or 1.0
     order, cell_starts, patch_starts = _cells(points, check_count(size, "cell size"), centre, unit)
@@ -58,7 +58,7 @@ def approximate_nearest(
             mean = x.mean(axis=0)
             x -= mean
             cells = _members(patch_starts, _probed(x, patch_centres - mean, patch_probes))
-            cells = cells[_probed(x, cell_centres[cells] - mean, probes)]
+            cells = cells[_probed(x, cell_centres[cells] - mean, n_probe)]
             candidates = _members(cell_starts, cells)
             nearest[group] = order[candidates[np.argmax(_scores(x, rows[candidates] - mean), axis=1)]]
 

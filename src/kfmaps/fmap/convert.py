@@ -22,7 +22,7 @@ def to_points(
     target: Basis,
     extra_columns: tuple[Array, Array] | None = None,
     exact: bool | None = None,
-    probes: int = N_PROBE,
+    n_probe: int = N_PROBE,
 ) -> np.ndarray:
     """Return the point map ``target_to_source (n_t,)`` of a functional map.
 
@@ -37,9 +37,9 @@ def to_points(
     extra_columns : pair of (n_s, d) and (n_t, d), optional
         Further columns to compare, as :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`
         returns them.
-    exact, probes
+    exact, n_probe
         As for :func:`kfmaps.fmap.nearest.nearest`: from about 10,000 points on each side the search is approximate
-        unless ``exact`` says otherwise, and quicker with fewer ``probes``.
+        unless ``exact`` says otherwise, and quicker with a smaller ``n_probe``.
     """
     dimensions = C.shape[0] + (0 if extra_columns is None else extra_columns[0].shape[1])
     single = is_approximate(target.mass.shape[0], source.mass.shape[0], dimensions, exact)
@@ -48,8 +48,8 @@ def to_points(
     # A vertex that no face uses has no area and the functions of a neighbour. It cannot be an image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == points.shape[0]:
-        return nearest(queries, points, exact=exact, probes=probes)
-    return used[nearest(queries, take(points, used), exact=exact, probes=probes)]
+        return nearest(queries, points, exact=exact, n_probe=n_probe)
+    return used[nearest(queries, take(points, used), exact=exact, n_probe=n_probe)]
 
 
 def embed(

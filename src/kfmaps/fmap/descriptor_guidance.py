@@ -108,19 +108,19 @@ def descriptor_variance(descriptors: np.ndarray) -> float:
     return squares / len(descriptors)
 
 
-def combine_guidance(guides: list[tuple[float, DescriptorGuidance | None]]) -> DescriptorGuidance | None:
+def combine_guidance(guidances: list[tuple[float, DescriptorGuidance | None]]) -> DescriptorGuidance | None:
     """Return one guidance of several with weights; ``None`` where there is none.
 
     Parameters
     ----------
-    guides : list of (float, DescriptorGuidance or None)
+    guidances : list of (float, DescriptorGuidance or None)
         The combined guidance has the unit of the first.
     """
-    scaled = [(weight, guide) for weight, guide in guides if guide is not None and weight > 0]
+    scaled = [(weight, guidance) for weight, guidance in guidances if guidance is not None and weight > 0]
     if not scaled:
         return None
-    scaled = [(np.sqrt(weight / scaled[0][0]), guide) for weight, guide in scaled]
+    scaled = [(np.sqrt(weight / scaled[0][0]), guidance) for weight, guidance in scaled]
     return DescriptorGuidance(
-        np.hstack([scale * guide.source for scale, guide in scaled]),
-        np.hstack([scale * guide.target for scale, guide in scaled]),
+        np.hstack([scale * guidance.source for scale, guidance in scaled]),
+        np.hstack([scale * guidance.target for scale, guidance in scaled]),
     )

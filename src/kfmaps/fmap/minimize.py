@@ -63,14 +63,14 @@ class MinimizeOptions:
 
 
 def minimize(
-    objective: Objective, how: MinimizeOptions, start: Array | None = None, progress: ProgressCallback | None = None
+    objective: Objective, options: MinimizeOptions, start: Array | None = None, progress: ProgressCallback | None = None
 ) -> Solution:
     """Minimise an objective from a start.
 
     Parameters
     ----------
     objective : Objective
-    how : MinimizeOptions
+    options : MinimizeOptions
     start : (k_t, k_s), optional
         By default the minimiser of the energy with the penalties' majorizers at zero; with the constraint, the
         orthonormal map nearest to it.
@@ -83,13 +83,15 @@ def minimize(
         ``residuals`` are of the last quadratic step.
     """
     if start is None and (objective.penalties or objective.constraint != "none"):
-        start = _solve_quadratic(objective.majorizer(0.0 * objective.energy.rhs()), "none", how, None, progress).value
+        start = _solve_quadratic(
+            objective.majorizer(0.0 * objective.energy.rhs()), "none", options, None, progress
+        ).value
     solution, steps, last = None, 0, np.inf
-    for step in range(how.max_outer_iter if objective.penalties else 1):
-        solution = _solve_quadratic(objective.majorizer(start), objective.constraint, how, start, progress)
+    for step in range(options.max_outer_iter if objective.penalties else 1):
+        solution = _solve_quadratic(objective.majorizer(start), objective.constraint, options, start, progress)
         start, steps = solution.value, steps + solution.steps
         now = objective.value(start) if objective.penalties else 0.0
-        if step and last - now <= how.rtol * abs(last):
+        if step and last - now <= options.rtol * abs(last):
             break
         last = now
     assert solution is not None
@@ -97,18 +99,22 @@ def minimize(
 
 
 def _solve_quadratic(
-    energy: Energy, constraint: Constraint, how: MinimizeOptions, start: Array | None, progress: ProgressCallback | None
+    energy: Energy,
+    constraint: Constraint,
+    options: MinimizeOptions,
+    start: Array | None,
+    progress: ProgressCallback | None,
 ) -> Solution:
     """Return the minimiser of an energy, by one linear solve or one descent along the manifold."""
     inverse = None
-    if how.preconditioner == "jacobi":
+    if options.preconditioner == "jacobi":
         inverse = jacobi(energy.diagonal())
-    elif how.preconditioner == "sylvester":
+    elif options.preconditioner == "sylvester":
         inverse = sylvester(energy)
     if constraint == "orthogonal":
         assert start is not None
-        return minimize_orthogonal(energy, how.solver, start, inverse, progress)
-    return solve(energy.apply, energy.rhs(), how.solver, start, inverse, progress)
+        return minimize_orthogonal(energy, options.solver, start, inverse, progress)
+    return solve(energy.apply, energy.rhs(), options.solver, start, inverse, progress)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +131,7 @@ def fit_bidirectional(
     back: Objective,
     inverse: float,
     adjoint: float,
-    how: MinimizeOptions,
+    options: MinimizeOptions,
     start: Array | None = None,
     progress: ProgressCallback | None = None,
 ) -> BidirectionalSolution:
@@ -133,10 +139,10 @@ def fit_bidirectional(
 
     The objective is the sum of both and ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²`` (Eynard et al.,
     Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is quadratic in each map;
-    they are minimised in turn, from the uncoupled ones, until the sum hardly falls. ``start`` is a map forth; ``how``
-    and ``progress`` are those of :func:`minimize`.
+    they are minimised in turn, from the uncoupled ones, until the sum hardly falls. ``start`` is a map forth;
+    ``options`` and ``progress`` are those of :func:`minimize`.
     """
-    C, D = minimize(forth, how, start, progress), minimize(back, how, None, progress)
+    C, D = minimize(forth, options, start, progress), minimize(back, options, None, progress)
     couplings: list[tuple[str, float, Callable[[Array], Term]]] = [
         ("inverse", inverse, inverse_term),
         ("adjoint", adjoint, adjoint_term),
@@ -153,13 +159,13 @@ def fit_bidirectional(
         return coupled(forth, D.value).value(C.value) + back.value(D.value)
 
     history = [total()]
-    one_step = replace(how, max_outer_iter=1)
-    for _ in range(how.max_outer_iter if couplings else 0):
+    one_step = replace(options, max_outer_iter=1)
+    for _ in range(options.max_outer_iter if couplings else 0):
         solution = minimize(coupled(forth, D.value), one_step, C.value, progress)
         C = replace(solution, steps=C.steps + solution.steps)
         solution = minimize(coupled(back, C.value), one_step, D.value, progress)
         D = replace(solution, steps=D.steps + solution.steps)
         history.append(total())
-        if history[-2] - history[-1] <= how.rtol * abs(history[-2]):
+        if history[-2] - history[-1] <= options.rtol * abs(history[-2]):
             break
     return BidirectionalSolution(C, D, np.asarray(history))

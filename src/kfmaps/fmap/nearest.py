@@ -26,7 +26,7 @@ def nearest(
     points: Array,
     block: int = 1024,
     exact: bool | None = None,
-    probes: int = N_PROBE,
+    n_probe: int = N_PROBE,
 ) -> np.ndarray:
     """Return for each query the closest of some points, (q,) int64.
 
@@ -41,7 +41,7 @@ def nearest(
         Rows of one matrix product.
     exact : bool, optional
         ``True``: never search approximately. ``False``: do so on NumPy arrays of any size in many dimensions.
-    probes : int
+    n_probe : int
         Cells that each query probes in an approximate search
         (:func:`kfmaps.fmap.approximate_nearest.approximate_nearest`).
 
@@ -59,7 +59,7 @@ def nearest(
         if _uses_tree(len(points), points.shape[1]):
             return _by_tree(queries, points)
         if is_approximate(len(queries), len(points), points.shape[1], exact):
-            return approximate_nearest(queries, points, probes=probes)
+            return approximate_nearest(queries, points, n_probe=n_probe)
     return _exact(queries, points, block)
 
 

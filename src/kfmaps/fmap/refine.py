@@ -31,7 +31,7 @@ class Refinement(Protocol):
     """A callable that improves a functional map and its point map.
 
     Three attributes are used where it has them: ``n_eigenfunctions``, which both shapes need; ``descriptor_weight``,
-    above 0 where it wants descriptors as the argument ``guide``; and ``limited(n)``, which returns the same with at
+    above 0 where it wants descriptors as the argument ``guidance``; and ``limited(n)``, which returns the same with at
     most n eigenfunctions, for shapes that differ much.
     """
 

@@ -86,7 +86,7 @@ class ZoomOut:
         target: Basis,
         progress: StageProgress | None = None,
         points: np.ndarray | None = None,
-        guide: DescriptorGuidance | None = None,
+        guidance: DescriptorGuidance | None = None,
     ) -> Refined:
         sizes = self._sizes(C, source, target)
         first = sizes[0]
@@ -94,19 +94,19 @@ class ZoomOut:
         samples_t = self._samples(target)
         sampled = samples_t.vertices is not None
         samples_s = self._candidates(source) if sampled else all_s
-        if tuple(C.shape) != (first, first) or sampled or (guide is not None and self.descriptor_weight):
+        if tuple(C.shape) != (first, first) or sampled or (guidance is not None and self.descriptor_weight):
             points = None
         # Later steps repair what an approximate search on samples misses.
-        search = _approximate_search(samples_s, samples_t) if sampled else {"probes": N_PROBE_FAST}
+        search = _approximate_search(samples_s, samples_t) if sampled else {"n_probe": N_PROBE_FAST}
         C = C[:first, :first]
         for i, larger in enumerate(sizes[1:]):
             if points is None:
-                points = self._nearest(C, samples_s, samples_t, guide, **search)
+                points = self._nearest(C, samples_s, samples_t, guidance, **search)
             C, points = fit_functional_map(points, samples_s.basis, samples_t.basis, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
         if points is None:
-            points = self._nearest(C, all_s, all_t, guide, probes=N_PROBE_FAST if sampled else N_PROBE)
+            points = self._nearest(C, all_s, all_t, guidance, n_probe=N_PROBE_FAST if sampled else N_PROBE)
         if sampled:
             C = fit_functional_map(points, source, target, self.stop)
         if progress is not None:
@@ -120,7 +120,7 @@ class ZoomOut:
         source: Basis,
         target: Basis,
         progress: StageProgress | None = None,
-        guide: DescriptorGuidance | None = None,
+        guidance: DescriptorGuidance | None = None,
     ) -> tuple[Refined, Refined]:
         """Refine the maps of both directions, each the adjoint of the other.
 
@@ -128,7 +128,7 @@ class ZoomOut:
         map back. Ren et al. (Continuous and orientation-preserving correspondences via functional maps, 2018) couple
         the two similarly; the mean is ours. Swapping the shapes and the maps swaps the results.
 
-        ``C (k_t, k_s)`` and ``back (k_s, k_t)``; ``progress`` and ``guide`` as in :meth:`__call__`.
+        ``C (k_t, k_s)`` and ``back (k_s, k_t)``; ``progress`` and ``guidance`` as in :meth:`__call__`.
 
         Raises
         ------
@@ -139,23 +139,23 @@ class ZoomOut:
         if tuple(back.shape) != (C.shape[1], C.shape[0]):
             wanted = f"shape {(C.shape[1], C.shape[0])}"
             raise refuse("map back", wanted, f"shape {tuple(back.shape)}", "give the map from target to source")
-        guide_back = guide and guide.swapped()
+        guidance_back = guidance and guidance.swapped()
         samples_s, samples_t = self._samples(source), self._samples(target)
         candidates_s = samples_s if samples_s.vertices is None else self._candidates(source)
         candidates_t = samples_t if samples_t.vertices is None else self._candidates(target)
         first = sizes[0]
         C = 0.5 * (C[:first, :first] + back[:first, :first].T)
         for i, larger in enumerate(sizes[1:]):
-            points = self._nearest(C, candidates_s, samples_t, guide)
+            points = self._nearest(C, candidates_s, samples_t, guidance)
             forward = fit_functional_map(points, candidates_s.basis, samples_t.basis, larger)
-            points = self._nearest(C.T, candidates_t, samples_s, guide_back)
+            points = self._nearest(C.T, candidates_t, samples_s, guidance_back)
             C = 0.5 * (forward + fit_functional_map(points, candidates_t.basis, samples_s.basis, larger).T)
             if progress is not None:
                 progress((i + 1) / len(sizes))
         all_s, all_t = _Points(source), _Points(target)
         refined = (
-            Refined(C, self._nearest(C, all_s, all_t, guide), tuple(sizes)),
-            Refined(C.T, self._nearest(C.T, all_t, all_s, guide_back), tuple(sizes)),
+            Refined(C, self._nearest(C, all_s, all_t, guidance), tuple(sizes)),
+            Refined(C.T, self._nearest(C.T, all_t, all_s, guidance_back), tuple(sizes)),
         )
         if progress is not None:
             progress(1.0)
@@ -191,21 +191,21 @@ class ZoomOut:
         C: Array,
         source: _Points,
         target: _Points,
-        guide: DescriptorGuidance | None,
+        guidance: DescriptorGuidance | None,
         **search: Any,
     ) -> np.ndarray:
         """Return the nearest point of ``source`` for each of ``target``."""
         columns = None
-        if guide is not None and self.descriptor_weight:
-            guide = guide.at(source.vertices, target.vertices)
-            columns = guide.embedding_columns(self.descriptor_weight, source.basis, target.basis)
+        if guidance is not None and self.descriptor_weight:
+            guidance = guidance.at(source.vertices, target.vertices)
+            columns = guidance.embedding_columns(self.descriptor_weight, source.basis, target.basis)
         return to_points(C, source.basis, target.basis, columns, **search)
 
 
 def _approximate_search(source: _Points, target: _Points) -> dict[str, Any]:
     """Return the options of a fast search that is approximate between many points."""
     pairs = source.basis.functions.shape[0] * target.basis.functions.shape[0]
-    return {"exact": False if pairs > MAX_EXACT_PAIRS else None, "probes": N_PROBE_FAST}
+    return {"exact": False if pairs > MAX_EXACT_PAIRS else None, "n_probe": N_PROBE_FAST}
 
 
 def fit_functional_map(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = _RIDGE) -> Array:

@@ -188,8 +188,8 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
     if not areas.sum() > 0:
         raise refuse(name, "a surface with area", "zero area", "check that its faces are not collapsed")
     flat = int((areas <= 1e-14 * areas.max()).sum())
-    loose = int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum())
-    for count, what in ((flat, "faces without area"), (loose, "vertices that no face uses")):
+    unreferenced = int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum())
+    for count, what in ((flat, "faces without area"), (unreferenced, "vertices that no face uses")):
         if count:
             warnings.warn(f"{printable(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
     return mesh

@@ -209,24 +209,26 @@ def describe_kernel(kernel: KernelLike) -> str:
     return getattr(kernel, "__name__", type(kernel).__name__)
 
 
-def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> KernelLike:
+def resolve_kernel(kernel: KernelLike, samples: Array, bandwidth_scale: float = 1.0) -> KernelLike:
     """Return the kernel with every automatic γ made a number.
 
-    It is ``γ = sharpness / median ‖x − y‖²`` for the Gaussian and ``γ = √sharpness / median ‖x − y‖`` for the Laplacian
-    kernel, over all pairs of different samples.
+    It is ``γ = bandwidth_scale / median ‖x − y‖²`` for the Gaussian and ``γ = √bandwidth_scale / median ‖x − y‖`` for
+    the Laplacian kernel, over all pairs of different samples.
 
     Parameters
     ----------
     kernel : Kernel or callable
     samples : (q, d)
         Descriptors.
-    sharpness : float
+    bandwidth_scale : float
         A number without unit, so that scaling all descriptors does not change the kernel's values.
     """
     if not isinstance(kernel, Gaussian | Laplacian):
         outer: Any = kernel
-        seen = outer.transform(samples) if hasattr(outer, "transform") else samples
-        inside = {name: resolve_kernel(inner, seen, sharpness) for name, inner in inner_kernels(kernel).items()}
+        transformed = outer.transform(samples) if hasattr(outer, "transform") else samples
+        inside = {
+            name: resolve_kernel(inner, transformed, bandwidth_scale) for name, inner in inner_kernels(kernel).items()
+        }
         return replace(outer, **inside) if inside else kernel
     if kernel.gamma is not None:
         return kernel
@@ -235,7 +237,7 @@ def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -
     largest = float((to_numpy(samples) ** 2).sum(axis=1).max())
     positive = squares[squares > max(1e-12 * squares.max(), 1e-24 * largest)]
     typical = float(np.median(positive)) if positive.size else 1.0
-    gamma = sharpness / typical
+    gamma = bandwidth_scale / typical
     return replace(kernel, gamma=gamma if isinstance(kernel, Gaussian) else float(np.sqrt(gamma)))
 
 

@@ -120,7 +120,7 @@ class _Run:
 
     def __post_init__(self) -> None:
         self.optimizer = torch.optim.Adam(_groups(self.model))
-        self.begun = time.perf_counter()
+        self.started = time.perf_counter()
 
     def begin(self, state: State | None) -> State:
         """Return the state before learning, or set model and optimizer to the given ``state``."""
@@ -128,11 +128,11 @@ class _Run:
             parameters = self.parameters()
             with torch.no_grad():
                 loss = self.mean("training pairs", self.pairs, lambda *arguments: float(pair_loss(*arguments)))
-            first = Epoch(0, loss, self.judge(loss), time.perf_counter() - self.begun)
+            first = Epoch(0, loss, self.judge(loss), time.perf_counter() - self.started)
             return State(parameters, parameters, self.optimizer.state_dict(), (first,))
         self.model.load_state_dict(state.parameters)
         self.optimizer.load_state_dict(state.optimizer)
-        self.begun -= state.history[-1].seconds
+        self.started -= state.history[-1].seconds
         return state
 
     def is_finished(self, state: State) -> bool:
@@ -156,7 +156,7 @@ class _Run:
             held_out = self.judge(loss)
         except (NotConverged, InvalidInput, RuntimeError) as error:
             raise _failure(error, "held out", state) from error
-        last = Epoch(number, loss, held_out, time.perf_counter() - self.begun)
+        last = Epoch(number, loss, held_out, time.perf_counter() - self.started)
         now = self.parameters()
         best = now if held_out < state.best_epoch.held_out else state.best
         optimizer = self.optimizer.state_dict()

@@ -184,7 +184,7 @@ class ExtremityVertices:
     target: np.ndarray
     units: tuple[float, float]
 
-    def guide(
+    def guidance(
         self, source: Mesh, target: Mesh, graphs: tuple[csr_array | None, csr_array | None] = (None, None)
     ) -> DescriptorGuidance:
         """Return the features of all vertices, whose squared differences are twice :func:`extremity_cost`.

@@ -72,8 +72,8 @@ def sample_pair_for_fit(
     if descriptors is not None:
         given = [_given_descriptors(values, shape) for values, shape in zip(descriptors, shapes, strict=True)]
         rows = given[0][parts[0].vertices], given[1][parts[1].vertices]
-    marks = np.stack([part.landmarks for part in parts], axis=1)
-    return SampledPair((parts[0].shape, parts[1].shape), marks, rows)
+    landmarks = np.stack([part.landmarks for part in parts], axis=1)
+    return SampledPair((parts[0].shape, parts[1].shape), landmarks, rows)
 
 
 def user_descriptors(

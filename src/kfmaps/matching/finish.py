@@ -215,14 +215,14 @@ def refine_map(
         else:
             report = partial(clock.report, "refinement")
             weight = getattr(refine, "descriptor_weight", 0)
-            guide = {"guide": guidance or descriptor_guidance(source.shot, target.shot)} if weight else {}
+            guided = {"guidance": guidance or descriptor_guidance(source.shot, target.shot)} if weight else {}
             with clock("refinement"):
                 if back is not None and hasattr(refine, "bidirectional"):
-                    forward, backward = refine.bidirectional(C, back, *bases, progress=report, **guide)
+                    forward, backward = refine.bidirectional(C, back, *bases, progress=report, **guided)
                 else:
-                    forward = refine(C, *bases, points=points, progress=report, **guide)
+                    forward = refine(C, *bases, points=points, progress=report, **guided)
                     if back is not None:
-                        swapped = {name: one and one.swapped() for name, one in guide.items()}
+                        swapped = {name: one and one.swapped() for name, one in guided.items()}
                         backward = refine(back, bases[1], bases[0], **swapped)
     ends = (None, None) if backward is None else (backward.target_to_source, to_numpy(backward.functional_map))
     return PostprocessedMap(forward.target_to_source, to_numpy(forward.functional_map), points, clock.seconds, *ends)
@@ -273,8 +273,10 @@ def match_from_map(
     size = min(FINE_FUNCTIONS, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.clean_points(points), *bases))
-    judged = known.verdict, known.confidence
-    found = SearchResult(C, known.initialization, None, *judged, orientation=known.orientation, quality=known.quality)
+    known_verdict = known.verdict, known.confidence
+    found = SearchResult(
+        C, known.initialization, None, *known_verdict, orientation=known.orientation, quality=known.quality
+    )
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
     return replace(result, alternatives=known.alternatives)
 

@@ -59,11 +59,11 @@ def match(
     descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
-    probes: tuple[ShapeSamples, ShapeSamples] | None = None,
+    shape_samples: tuple[ShapeSamples, ShapeSamples] | None = None,
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``, as :func:`kfmaps.match` does.
 
-    ``landmarks (l, 2)``: pairs "source vertex, target vertex", 0-based. ``probes``: samples of both shapes by
+    ``landmarks (l, 2)``: pairs "source vertex, target vertex", 0-based. ``shape_samples``: samples of both shapes by
     :func:`kfmaps.matching.search.scoring_samples` with the same ``rng``. They save an eighth of the time where a shape
     is matched many times, and change nothing.
     """
@@ -71,7 +71,10 @@ def match(
     prepared = prepare_both(source, target, config, progress=progress)
     pair = reindexing(prepared[0], prepared[1])
     pairs = check_landmark_pairs(landmarks, *pair.given)
-    marks, descriptors = pair.clean_landmarks(pairs if len(pairs) else None), pair.clean_descriptors(descriptors)
+    clean_landmarks, descriptors = (
+        pair.clean_landmarks(pairs if len(pairs) else None),
+        pair.clean_descriptors(descriptors),
+    )
     check_match_memory(config, len(prepared[0].mesh.vertices), len(prepared[1].mesh.vertices), len(pairs))
     meshes = (
         source.given_mesh if isinstance(source, Shape) else source,
@@ -80,7 +83,7 @@ def match(
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     with limit_threads(config.threads):
         detection = _detect_part(task)
-        wholes = partial(_match_wholes, task, marks, descriptors, probes)
+        wholes = partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
         may_be_whole = config.search is not None and detection.opening <= SCORE.part.max_hole_opening
         if may_be_whole and detection.which != "none":
             best = _match_holed(task, detection, wholes)
@@ -160,7 +163,7 @@ def _match_wholes(
     task: MatchTask,
     landmarks: np.ndarray | None,
     descriptors: tuple[Array, Array] | None,
-    probes: tuple[ShapeSamples, ShapeSamples] | None,
+    shape_samples: tuple[ShapeSamples, ShapeSamples] | None,
     as_wholes: MatchPart,
 ) -> Match:
     """Return the match of two whole shapes, by a search or by one fit; ``as_wholes``: what it says about parts."""
@@ -177,7 +180,7 @@ def _match_wholes(
             descriptors=descriptors,
             rng=task.seed,
             progress=report,
-            probes=None if is_reversing else probes,  # they are not of the mirror image
+            shape_samples=None if is_reversing else shape_samples,  # they are not of the mirror image
         )
     return _retry_torn(task, found, _finish_result(task, found))
 
@@ -217,7 +220,7 @@ def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> Descri
     Positions and normals take part where the search has registered the shapes, that is between unlike ones.
     """
     meshes = [shape.mesh for shape in shapes]
-    extremities = found.extremities and found.extremities.guide(meshes[0], meshes[1])
+    extremities = found.extremities and found.extremities.guidance(meshes[0], meshes[1])
     weight = LANDMARK_WEIGHT if found.is_near_isometric else LANDMARK_WEIGHT_UNLIKE
     guidance = build_guidance(*shapes, found.landmarks, extremities, found.shot_guidance, lead=weight)
     if found.registered_vertices is None:

@@ -198,7 +198,7 @@ def sample_for_scoring(
 
 
 def sample_surface(shape: Shape, kept: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
-    """Return the surface or a coarse proxy of a large one, the basis on it, and the numbers of the ``kept`` vertices."""
+    """Return the surface or a proxy of a large one, the basis on it, and the numbers of the ``kept`` vertices."""
     if len(shape.mesh.vertices) <= MAX_SURFACE_VERTICES:
         return shape.mesh, to_numpy(shape.basis.functions), kept
     vertices = stratified_vertices(shape.basis, MAX_SURFACE_VERTICES, 0, np.unique(kept))

@@ -26,7 +26,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.registration.alternating_registration import ProxyPair, proxy_pair
-from kfmaps.registration.evidence import FINE_VERTICES, PATIENT, shape_proxy, deform, registered_shot_error
+from kfmaps.registration.evidence import FINE_VERTICES, PATIENT, deform, registered_shot_error, shape_proxy
 from kfmaps.shape import Shape, mirror_image
 
 N_REGISTERED = 3

@@ -83,7 +83,7 @@ class Repair:
         """
         setting, pair = self.setting, self.setting.proxies
         shapes, landmarks = (pair.source, pair.target), setting.landmarks
-        limbs = self.extremities and self.extremities.guide(pair.source.mesh, pair.target.mesh, setting.graphs)
+        limbs = self.extremities and self.extremities.guidance(pair.source.mesh, pair.target.mesh, setting.graphs)
         guidance = build_guidance(*shapes, landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
         for result in register_map_on_proxies(self.start.functional_map, pair, guidance, landmarks, swapped):
             if result is None:
@@ -209,7 +209,7 @@ def _run_repairs(repairs: list[Repair], progress: Progress | None) -> tuple[dict
     def report(i: int, part: float) -> None:
         done[i] = part
         if progress is not None:
-            progress("bent and matched in turn", float(done.mean()))
+            progress("registered and refined in turn", float(done.mean()))
 
     def begin(i: int) -> Candidate | None:
         made = next(rounds[i])

@@ -81,21 +81,21 @@ class TwoLevelSamples:
 
 
 def two_level_samples(
-    source: Shape, target: Shape, probes: tuple[ShapeSamples, ShapeSamples], landmarks: np.ndarray | None = None
+    source: Shape, target: Shape, shape_samples: tuple[ShapeSamples, ShapeSamples], landmarks: np.ndarray | None = None
 ) -> TwoLevelSamples:
     """Return the samples of two prepared shapes at two levels.
 
-    ``probes``: the fine samples of both shapes, with the distances from their landmarks; ``landmarks (l, 2)``: pairs
-    "source vertex, target vertex".
+    ``shape_samples``: the fine samples of both shapes, with the distances from their landmarks; ``landmarks (l, 2)``:
+    pairs "source vertex, target vertex".
     """
     evidence = None
     if landmarks is not None and len(landmarks):
-        sides = zip((source, target), probes, landmarks.T, strict=True)
+        sides = zip((source, target), shape_samples, landmarks.T, strict=True)
         heat = [heat_features(p.samples.basis, shape.basis, at) for shape, p, at in sides]
-        evidence = LandmarkEvidence(target.basis.functions[landmarks[:, 1]], probes[0].landmark_distances, *heat)
-    coarse = subsample(probes[0], COARSE_SAMPLES), subsample(probes[1], COARSE_SAMPLES)
+        evidence = LandmarkEvidence(target.basis.functions[landmarks[:, 1]], shape_samples[0].landmark_distances, *heat)
+    coarse = subsample(shape_samples[0], COARSE_SAMPLES), subsample(shape_samples[1], COARSE_SAMPLES)
     subsampled = evidence and evidence.subsample(*(len(p.samples.vertices) for p in coarse))
-    return TwoLevelSamples(build_sample_pair(*coarse, subsampled), build_sample_pair(*probes, evidence))
+    return TwoLevelSamples(build_sample_pair(*coarse, subsampled), build_sample_pair(*shape_samples, evidence))
 
 
 def build_sample_pair(

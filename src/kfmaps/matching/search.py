@@ -86,13 +86,13 @@ def search_map(
     descriptors: tuple[Array, Array] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
-    probes: tuple[ShapeSamples, ShapeSamples] | None = None,
+    shape_samples: tuple[ShapeSamples, ShapeSamples] | None = None,
 ) -> SearchResult:
     """Search for the map between two prepared shapes, as ``config.search`` says.
 
     ``landmarks (l, 2)``: pairs "source vertex, target vertex". They guide the candidates and count in their scores.
-    ``probes``: samples of both shapes by :func:`scoring_samples` with the same ``rng``, which saves time where a shape
-    is matched many times. They are not used with landmarks, since the samples of a search have distances from these.
+    ``shape_samples``: samples of both shapes by :func:`scoring_samples` with the same ``rng``, which saves time where a
+    shape is matched many times. They are not used with landmarks, since samples then have distances from these.
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config(), which has them")
@@ -101,8 +101,8 @@ def search_map(
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
     with limit_threads(config.threads):
-        probes = _search_samples(source, target, config, pairs, seed, probes)
-        samples = two_level_samples(source, target, probes)
+        shape_samples = _search_samples(source, target, config, pairs, seed, shape_samples)
+        samples = two_level_samples(source, target, shape_samples)
         report("candidates", 0.1)
         descriptors = user_descriptors(source, target, config.descriptors, descriptors)
         state = SearchState(
@@ -125,7 +125,7 @@ def search_map(
             return _result(*_improve_best(ranked, report))
         may_be_sure = ranked.ranked[0].quality.calibrated_score >= SCORE.min_unrepaired_score
         found = _result(*_improve_best(ranked, report)) if may_be_sure else None
-        samples = two_level_samples(source, target, probes, pairs)
+        samples = two_level_samples(source, target, shape_samples, pairs)
         state = replace(
             state,
             landmarks=pairs,
@@ -160,20 +160,20 @@ def _search_samples(
     config: Config,
     landmarks: np.ndarray,
     seed: int,
-    probes: tuple[ShapeSamples, ShapeSamples] | None,
+    shape_samples: tuple[ShapeSamples, ShapeSamples] | None,
 ) -> tuple[ShapeSamples, ShapeSamples]:
     """Return the samples of both shapes, without extremities where the search does not match these.
 
-    ``probes``: samples that are used where there are no landmarks.
+    ``shape_samples``: samples that are used where there are no landmarks.
     """
-    if probes is None or len(landmarks):
+    if shape_samples is None or len(landmarks):
         sides, drawn = zip((source, target), landmarks.T, strict=True), derived_seed(seed)
         a, b = parallel(lambda s: with_self_maps(sample_for_scoring(s[0], rng=drawn, landmarks=s[1])), sides)
-        probes = a, b
+        shape_samples = a, b
     assert config.search is not None
     if config.search.match_extremities:
-        return probes
-    a, b = (replace(one, extremities=one.extremities.removed()) for one in probes)
+        return shape_samples
+    a, b = (replace(one, extremities=one.extremities.removed()) for one in shape_samples)
     return a, b
 
 
@@ -197,11 +197,13 @@ def _search_with_landmarks(
     def rank(state: SearchState) -> SearchState:
         """Rank candidates that are made with the landmarks together with those that were found without."""
         samples, kept = state.samples, state.landmarks[~state.rejected]
-        free, led = score_maps(state.without_landmarks, samples.fine), []
+        free, guided = score_maps(state.without_landmarks, samples.fine), []
         if len(kept):
             pair, part = (state.source, state.target), _candidates_between(report, 0.5, 0.9)
-            led = candidates(*pair, state.config, samples, seed, landmarks=kept, descriptors=descriptors, report=part)
-        return _rank(replace(state, candidates=[*led, *free], without_landmarks=free))
+            guided = candidates(
+                *pair, state.config, samples, seed, landmarks=kept, descriptors=descriptors, report=part
+            )
+        return _rank(replace(state, candidates=[*guided, *free], without_landmarks=free))
 
     settled, is_close = _settled_result(found, state)
     if settled is not None and is_close:

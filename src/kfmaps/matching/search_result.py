@@ -135,4 +135,4 @@ def alternative_maps(maps: list[np.ndarray], source: Basis, target: Basis) -> tu
     if len(vertices) > MAX_CANDIDATES:
         vertices = stratified_vertices(source, MAX_CANDIDATES, 0)
         sampled = SampledBasis(source.eigenvalues, source.functions[vertices], source.mass[vertices])
-    return tuple(vertices[to_points(C, sampled, target, exact=exact, probes=N_PROBE_FAST)] for C in maps)
+    return tuple(vertices[to_points(C, sampled, target, exact=exact, n_probe=N_PROBE_FAST)] for C in maps)

@@ -89,13 +89,13 @@ def register_map(
     areas = vertex_areas(target.mesh)
     areas = areas / areas.sum()
 
-    def register(held: np.ndarray | None, points: np.ndarray = points) -> tuple[RegisteredMap, RegistrationReport]:
-        stage = "non-rigid fit" if held is None else "non-rigid fit, held"
+    def register(pinned: np.ndarray | None, points: np.ndarray = points) -> tuple[RegisteredMap, RegistrationReport]:
+        stage = "non-rigid fit" if pinned is None else "non-rigid fit, pinned"
         with clock(stage):
             progress = partial(clock.report, stage)
-            result = registration(source.mesh, target.mesh, points, progress, landmarks=landmarks, held=held)
-        before, pinned = float(confidence.mean()), held is not None
-        report = RegistrationReport(result.gap, result.bending, before, pinned=pinned, landmarks_held=use_landmarks)
+            result = registration(source.mesh, target.mesh, points, progress, landmarks=landmarks, pinned=pinned)
+        before, was_pinned = float(confidence.mean()), pinned is not None
+        report = RegistrationReport(result.gap, result.bending, before, pinned=was_pinned, landmarks_held=use_landmarks)
         if result.gap > _MAX_GAP:
             return RegisteredMap(points, None, None, confidence, report), report
         precise_map = PointMap(result.faces, result.weights)
@@ -111,8 +111,8 @@ def register_map(
 
     first, first_report = best, report = register(None)
     if first_report.worsened > _MAX_WORSENED_AREA and not (scales and first_report.accepted):
-        held = np.clip(2 * (confidence - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)
-        second, second_report = register(held)
+        pinned = np.clip(2 * (confidence - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)
+        second, second_report = register(pinned)
         if second_report.accepted or not first_report.accepted:
             best, report = second, second_report
     best = best if report.accepted else RegisteredMap(points, None, None, confidence, report)

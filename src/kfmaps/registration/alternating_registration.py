@@ -92,12 +92,12 @@ def alternating_registration(
     k = min(*(len(basis.eigenvalues) for basis in pair.bases), _REFINE.stop)
     refine = replace(_REFINE, stop=k, start=min(_REFINE.start, k))
     guidance, landmarks = guidance and guidance.at(a.vertices, b.vertices), pair.nearest(landmarks)
-    refined = refine(C, *pair.bases, guide=guidance)
+    refined = refine(C, *pair.bases, guidance=guidance)
     for _ in range(_ROUNDS):
-        x = FIT.bent(pair.forth, refined.target_to_source, landmarks=landmarks)[0]
+        x = FIT.register_vertices(pair.forth, refined.target_to_source, landmarks=landmarks)[0]
         positions = position_normal_guidance(Mesh(x, a.mesh.faces), b.mesh)
         both = combine_guidance([(1.0, guidance), (WEIGHT, positions)])
-        refined = refine(refined.functional_map, *pair.bases, guide=both)
+        refined = refine(refined.functional_map, *pair.bases, guidance=both)
         vertices = _project_positions(x, pair.bases[0], pair.source.basis)
         yield AlternatingResult(to_numpy(refined.functional_map), vertices)
 

@@ -95,7 +95,7 @@ def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndar
 
 def _registered(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> np.ndarray:
     """Return the registered vertices of the source; candidates with the same map share them."""
-    return pair.once((fit, points.tobytes()), lambda: fit.bent(pair, points)[0])
+    return pair.once((fit, points.tobytes()), lambda: fit.register_vertices(pair, points)[0])
 
 
 def _deform_one(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> DeformationEnergy | None:

@@ -84,7 +84,7 @@ class NonRigid:
         target_to_source: np.ndarray,
         progress: Callable[[float], None] | None = None,
         landmarks: np.ndarray | None = None,
-        held: np.ndarray | None = None,
+        pinned: np.ndarray | None = None,
     ) -> Registration:
         """Register a source onto a target, beginning with a map.
 
@@ -97,8 +97,8 @@ class NonRigid:
             Called with how much is done, from 0 to 1.
         landmarks : (l, 2) int64, optional
             Pairs "source vertex, target vertex", which are pulled together softly.
-        held : (n_t,) float64, optional
-            From 0 to 1, how strongly each target vertex is held at its image in the map.
+        pinned : (n_t,) float64, optional
+            From 0 to 1, how strongly each target vertex is pinned to its image in the map.
 
         Raises
         ------
@@ -113,9 +113,9 @@ class NonRigid:
         landmarks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
         x = None
         if max(len(source.vertices), len(target.vertices)) > _PROXY_FROM:
-            x = self._register_proxies(source, target, points, lambda done: report(0.3 * done), landmarks, held)
+            x = self._register_proxies(source, target, points, lambda done: report(0.3 * done), landmarks, pinned)
         pair = mesh_pair(deformable_mesh(source), target)
-        x, gap = self.bent(pair, points, x, report, landmarks, held)
+        x, gap = self.register_vertices(pair, points, x, report, landmarks, pinned)
         projected = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
         energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
         return Registration(x, projected.faces, projected.weights, energy, gap)
@@ -127,29 +127,29 @@ class NonRigid:
         points: np.ndarray,
         report: Callable[[float], None],
         landmarks: np.ndarray,
-        held: np.ndarray | None,
+        pinned: np.ndarray | None,
     ) -> np.ndarray:
         """Register coarse proxies of both and return the source's vertices (n_s, 3) that follow."""
         a = coarse_proxy(source, spread_vertices(source, _PROXY_VERTICES, landmarks[:, 0]))
         b = coarse_proxy(target, spread_vertices(target, _PROXY_VERTICES, landmarks[:, 1]))
         report(0.1)
-        x, _ = self.bent(
+        x, _ = self.register_vertices(
             mesh_pair(deformable_mesh(a.mesh), b.mesh),
             a.owner[points[b.vertices]],
             report=lambda done: report(0.1 + 0.9 * done),
             landmarks=np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1),
-            held=None if held is None else held[b.vertices],
+            pinned=None if pinned is None else pinned[b.vertices],
         )
         return embedded_deformation(a, source, x, rotations(build_arap(a.mesh), x))
 
-    def bent(
+    def register_vertices(
         self,
         pair: MeshPair,
         points: np.ndarray,
         x: np.ndarray | None = None,
         report: Callable[[float], None] = lambda _done: None,
         landmarks: np.ndarray | None = None,
-        held: np.ndarray | None = None,
+        pinned: np.ndarray | None = None,
     ) -> tuple[np.ndarray, float]:
         """Return the registered vertices (n_s, 3) of a prepared pair, and the gap.
 
@@ -169,13 +169,13 @@ class NonRigid:
         landmarks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
         strength = _SCALED_LANDMARK_PULL if self.local_scaling else LANDMARK_PULL
         pull = landmark_pull(pair.body, landmarks[:, 0], pair.target.vertices[landmarks[:, 1]], strength)
-        pinned = [] if held is None or not held.any() else [_pin_term(pair, points, held)]
+        pins = [] if pinned is None or not pinned.any() else [_pin_term(pair, points, pinned)]
         gap = 0.0
 
         def terms(x: np.ndarray, stiffness: float) -> list[DataTerm]:
             nonlocal gap
             closest, gap = _closest_terms(pair, x)
-            return [*closest, *pinned, *pull.terms(x, stiffness)]
+            return [*closest, *pins, *pull.terms(x, stiffness)]
 
         def transforms(x: np.ndarray) -> np.ndarray:
             return scale(x, smooth(rotations(pair.body.energy, x)))
@@ -222,12 +222,12 @@ def _rotation_smoothing(pair: MeshPair, area: float) -> Callable[[np.ndarray], n
     return lambda R: nearest_rotations(diffuse(pair.body.areas[:, None] * R.reshape(len(R), 9)).reshape(R.shape))
 
 
-def _pin_term(pair: MeshPair, points: np.ndarray, held: np.ndarray) -> DataTerm:
-    """Return the term that holds target vertices at their images in the map, with weights ``held (n_t,)``."""
-    rows = np.flatnonzero(held)
+def _pin_term(pair: MeshPair, points: np.ndarray, pinned: np.ndarray) -> DataTerm:
+    """Return the term that holds target vertices at their images in the map, with weights ``pinned (n_t,)``."""
+    rows = np.flatnonzero(pinned)
     shape = len(rows), len(pair.body.areas)
     selection = csr_array((np.ones(len(rows)), points[rows], np.arange(len(rows) + 1)), shape=shape)
-    return DataTerm(held[rows] * pair.areas_t[rows], pair.target.vertices[rows], selection)
+    return DataTerm(pinned[rows] * pair.areas_t[rows], pair.target.vertices[rows], selection)
 
 
 def _closest_terms(pair: MeshPair, x: np.ndarray) -> tuple[list[DataTerm], float]:

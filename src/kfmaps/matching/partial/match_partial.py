@@ -46,13 +46,13 @@ def match_partial(
     is_target = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
     part, whole = (target, source) if is_target else (source, target)
     pairs = task.pair.clean_landmarks(task.landmarks)
-    marks = pairs[:, ::-1] if is_target else pairs
+    landmarks = pairs[:, ::-1] if is_target else pairs
     ratio = ratio if is_target or ratio is None else 1 / ratio
     settings = task.config.partial
     placing = PartTask(part.mesh, whole.mesh, settings, ratio, which == "both", task.seed, least_scale, clear_only)
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
-    found, errors = _place_by_landmarks(place_with, marks, whole.mesh, numbers, which == "both")
+    found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")
     overlap, scale = found.overlap, found.registration.scale
     scaled = scale_mesh(part.mesh, scale)
     if is_target:
@@ -62,19 +62,19 @@ def match_partial(
     points = np.where(overlaps[1] > COMMON, nearest_vertices(places, source.mesh), -1)
     mass_p, mass_w = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
     areas = mass_p * overlap.part
-    distances = scale * geodesic_distances(part.mesh, marks[:, 0]) if len(marks) else np.zeros((0, len(areas)))
-    judged = found.scores[0], found.margin, None, landmark_support(errors, distances, areas), numbers
+    distances = scale * geodesic_distances(part.mesh, landmarks[:, 0]) if len(landmarks) else np.zeros((0, len(areas)))
+    calibrated = found.scores[0], found.margin, None, landmark_support(errors, distances, areas), numbers
     match = task.result(
         points,
         _slanted_functional_map(points, source, target, scale if is_target else 1 / scale),
         local_confidence(*meshes, points, sized=True),
         # Where a vertex has no counterpart this is the nearest point that could be one.
         precise_map=task.pair.given_precise_map(places),
-        verdict=verdict(*judged),
-        confidence=probability(*judged),
+        verdict=verdict(*calibrated),
+        confidence=probability(*calibrated),
         score=MatchScore(
             found.scores,
-            initialization="a part bent onto the other",
+            initialization="a part registered onto the other",
             rejected_landmarks=np.flatnonzero(errors > SCORE.part.max_landmark_error),
         ),
         # The source's vertices on the target at unit area, where the source is the part.

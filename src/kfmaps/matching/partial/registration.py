@@ -89,8 +89,8 @@ def refine_registration(
     """
     rest, x = deformable_mesh(scale_mesh(part, found.scale)), found.vertices
     if len(x) < len(part.vertices):
-        turns = rotations(build_arap(found.rest), x)
-        x = embedded_deformation(replace(proxy, mesh=found.rest), rest.mesh, x, turns)
+        R = rotations(build_arap(found.rest), x)
+        x = embedded_deformation(replace(proxy, mesh=found.rest), rest.mesh, x, R)
     pull = landmark_pull(rest, landmarks[:, 0], whole.mesh.vertices[landmarks[:, 1]])
     return _register(rest, x, found.scale, whole, pull, _STIFFNESS[-1:], 2, lambda _done: None)
 
@@ -112,10 +112,10 @@ def _register(
         closest = DataTerm(rest.areas * (agree * _is_inside(found, whole)), found.points, None, normals)
         return [closest, *pull.terms(x, stiffness)]
 
-    def turns(x: np.ndarray) -> np.ndarray:
+    def transforms(x: np.ndarray) -> np.ndarray:
         return rotations(rest.energy, x)
 
-    x = descend_levels(rest, x, levels, steps, 1.0, terms, turns, progress)
+    x = descend_levels(rest, x, levels, steps, 1.0, terms, transforms, progress)
     return _measure_registration(x, rest, scale, whole)
 
 
@@ -165,28 +165,30 @@ class Overlap:
 
 
 def overlap_probability(
-    bent: Mesh, on_boundary: np.ndarray, whole: Mesh, normals: np.ndarray | None = None
+    registered: Mesh, on_boundary: np.ndarray, whole: Mesh, normals: np.ndarray | None = None
 ) -> tuple[np.ndarray, ClosestPoints]:
     """Return the probability (n_w,) of each vertex of a whole to lie on a registered part, and the closest point on it.
 
-    ``bent``: the part in the unit of the whole; ``on_boundary (n_p,)``: its vertices on the boundary; ``whole``: at
-    unit area; ``normals (n_w, 3)``: of the whole's vertices, if they have been computed.
+    ``registered``: the part in the unit of the whole; ``on_boundary (n_p,)``: its vertices on the boundary; ``whole``:
+    at unit area; ``normals (n_w, 3)``: of the whole's vertices, if they have been computed.
     """
-    found, _, agree = closest_point_query(bent)(whole.vertices, vertex_normals(whole) if normals is None else normals)
+    found, _, agree = closest_point_query(registered)(
+        whole.vertices, vertex_normals(whole) if normals is None else normals
+    )
     # The closest point of a vertex beyond the boundary lies on it. Half an edge's length is the resolution there.
-    corners = bent.vertices[bent.faces[found.faces]]
+    corners = registered.vertices[registered.faces[found.faces]]
     half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
-    edge = _at_boundary(found, bent.faces, on_boundary)
+    edge = _at_boundary(found, registered.faces, on_boundary)
     width = np.where(edge, np.minimum(half, _OVERLAP_WIDTH), _OVERLAP_WIDTH)
     return _half_at(found.distances, width) * np.where(agree > 0, 1.0, 0.25), found
 
 
-def find_overlap(bent: PartRegistration, whole: PartSurface) -> Overlap:
+def find_overlap(registered: PartRegistration, whole: PartSurface) -> Overlap:
     """Return what a registered part and the whole have in common."""
-    mesh = Mesh(bent.vertices, bent.rest.faces)
-    common, found = overlap_probability(mesh, boundary_vertices(bent.rest), whole.mesh, whole.surface.normals)
-    own = np.where(bent.inside, _half_at(bent.places.distances, _OVERLAP_WIDTH), 0.0)
-    return Overlap(own, common, *(PointMap(places.faces, places.weights) for places in (bent.places, found)))
+    mesh = Mesh(registered.vertices, registered.rest.faces)
+    common, found = overlap_probability(mesh, boundary_vertices(registered.rest), whole.mesh, whole.surface.normals)
+    own = np.where(registered.inside, _half_at(registered.places.distances, _OVERLAP_WIDTH), 0.0)
+    return Overlap(own, common, *(PointMap(places.faces, places.weights) for places in (registered.places, found)))
 
 
 def _half_at(distances: np.ndarray, width: np.ndarray | float) -> np.ndarray:
