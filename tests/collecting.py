@@ -40,7 +40,7 @@ CONFIG = replace(
 """Of a size for shapes of a few hundred vertices."""
 
 
-def bent(i: int, n: int) -> Mesh:
+def registered(i: int, n: int) -> Mesh:
     """Poses of one shape: each bends it a little more, its vertices corresponding by number."""
     mesh = blob(n)
     x, y, z = mesh.vertices.T
@@ -56,7 +56,7 @@ def write_collection(folder: Path, count: int = 3, *, sizes: Sequence[int] = (),
     rng = np.random.default_rng(5)
     for i in range(count):
         size = sizes[i] if i < len(sizes) else n
-        mesh, order = bent(i, size), rng.permutation(size)
+        mesh, order = registered(i, size), rng.permutation(size)
         place = np.argsort(order)
         write_mesh(folder / f"b{i}.off", Mesh(mesh.vertices[order], place[mesh.faces]))
         if size == n:

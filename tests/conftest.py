@@ -303,11 +303,11 @@ def refusal(read: Callable[[Path], object], path: Path, content: bytes | None = 
         path.write_bytes(content)
     with pytest.raises(InvalidInput) as caught:
         read(path)
-    told = str(caught.value)
-    assert "\n" not in told
-    assert f"{path.parent}{os.sep}" in told
-    assert "expected" in told
-    return told
+    output = str(caught.value)
+    assert "\n" not in output
+    assert f"{path.parent}{os.sep}" in output
+    assert "expected" in output
+    return output
 
 
 Value = TypeVar("Value")

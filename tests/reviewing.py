@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from collecting import bent
+from collecting import registered
 from kfmaps.batch.landmark_tables import write_study
 from kfmaps.batch.layout import find_collection
 from kfmaps.batch.transfer_landmarks import read_templates, template_landmarks
@@ -34,7 +34,7 @@ def write_scans(folder: Path, size: float = 1.0, missing: str = "") -> Path:
     """Write four poses whose vertices correspond by number, and beside their folder the landmarks of each."""
     (folder / "scans").mkdir()
     for i, name in enumerate("abcd"):
-        mesh = bent(i, N)
+        mesh = registered(i, N)
         mesh = Mesh(size * mesh.vertices + 4 * (size - 1), mesh.faces)
         write_mesh(folder / "scans" / f"{name}.ply", mesh)
         points = mesh.vertices[AT]

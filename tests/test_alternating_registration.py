@@ -144,9 +144,9 @@ def test_proxies_are_made_once_and_of_the_image_that_is_meant(creature_pair):
 
 def test_repairs_report_their_progress(creature_pair, monkeypatch):
     monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
-    told = []
-    repaired(creature_pair, creature_pair.right, progress=lambda *what: told.append(what))
-    assert told == [("bent and matched in turn", done) for done in (0.0, 0.5, 1.0)]
+    calls = []
+    repaired(creature_pair, creature_pair.right, progress=lambda *what: calls.append(what))
+    assert calls == [("bent and matched in turn", done) for done in (0.0, 0.5, 1.0)]
 
 
 def test_the_target_is_registered_and_the_source_where_that_is_asked_for(creature_pair, monkeypatch):
@@ -154,8 +154,8 @@ def test_the_target_is_registered_and_the_source_where_that_is_asked_for(creatur
     n_s, n_t = (len(shape.mesh.vertices) for shape in (creature_pair.source, creature_pair.target))
     calls, apart = [], []
 
-    def made(C, on, led, _landmarks):
-        calls.append((on.source is creature_pair.target, led.source.shape[0], np.array_equal(C, creature_pair.C.T)))
+    def made(C, on, guided, _landmarks):
+        calls.append((on.source is creature_pair.target, guided.source.shape[0], np.array_equal(C, creature_pair.C.T)))
         if (on.source is creature_pair.target) in apart:
             raise NotConverged("it fell apart")
         yield AlternatingResult(C, on.source.mesh.vertices)
@@ -185,9 +185,9 @@ def test_likely_extremity_matches_that_no_map_has_are_repaired_too(creature_pair
     monkeypatch.setattr(registration_refine, "complete_match", lambda one, _likely: one)
     begun, asked = [], []
 
-    def tips_of(pairing, *rest):
-        asked.append(f"{pairing}")
-        return vertices_of_match(pairing, *rest)
+    def tips_of(extremity_match, *rest):
+        asked.append(f"{extremity_match}")
+        return vertices_of_match(extremity_match, *rest)
 
     def made(C, on, _led, _landmarks):
         begun.append(C)
@@ -264,12 +264,12 @@ def test_what_lags_after_one_round_is_given_up(creature_pair, astray, monkeypatc
 
 
 def test_extremity_matches_are_used_once():
-    def pairing(*pairs):
+    def extremity_match(*pairs):
         return ExtremityMatch(*np.array(pairs).T)
 
-    whole = pairing((0, 0), (1, 1), (2, 2), (3, 3))
-    part, other = pairing((0, 0), (1, 1), (2, 2)), pairing((0, 0), (1, 2), (2, 1))
-    third = pairing((0, 4), (1, 1), (2, 2))
+    whole = extremity_match((0, 0), (1, 1), (2, 2), (3, 3))
+    part, other = extremity_match((0, 0), (1, 1), (2, 2)), extremity_match((0, 0), (1, 2), (2, 1))
+    third = extremity_match((0, 4), (1, 1), (2, 2))
     # Of the first the whole is begun with, though a part of it is likelier: there is less to differ.
     assert unused_matches([part, whole, other, third], [], 3) == [whole, other, third]
     assert unused_matches([part, whole, other, third], [], 2) == [whole, other]
@@ -279,8 +279,8 @@ def test_extremity_matches_are_used_once():
     assert unused_matches([part, other, third], [whole], 3) == [other, third]
     assert unused_matches([whole], [part], 1) == [whole]
     assert part.contradicts(third)
-    assert part.contradicts(pairing((5, 0)))  # by the target's tip alone
-    assert not part.contradicts(pairing((5, 5)))
+    assert part.contradicts(extremity_match((5, 0)))  # by the target's tip alone
+    assert not part.contradicts(extremity_match((5, 5)))
     assert not whole.contradicts(part)
 
 
@@ -298,7 +298,7 @@ def test_a_map_that_a_repair_makes_worse_stays_as_it_was(creature_pair, astray, 
 
 
 def test_a_repair_that_fails_in_one_direction_is_made_in_the_other(creature_pair, astray, monkeypatch):
-    rough = creature_pair.C + 0.02 * np.random.default_rng(1).normal(size=creature_pair.C.shape)
+    coarse_map = creature_pair.C + 0.02 * np.random.default_rng(1).normal(size=creature_pair.C.shape)
 
     def made(_C, where, *_rest):
         found = astray if where.source is creature_pair.target else creature_pair.C
@@ -306,7 +306,7 @@ def test_a_repair_that_fails_in_one_direction_is_made_in_the_other(creature_pair
 
     monkeypatch.setattr(registration_refine, "alternating_registration", made)
     monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
-    (found,) = repaired(creature_pair, *score_maps([Start("rough", rough)], creature_pair.fine))[0]
+    (found,) = repaired(creature_pair, *score_maps([Start("rough", coarse_map)], creature_pair.fine))[0]
     np.testing.assert_array_equal(found.functional_map, creature_pair.C)
     assert not found.swapped
     assert found.registered_vertices is creature_pair.source.mesh.vertices
@@ -473,7 +473,7 @@ def test_a_search_tells_what_else_may_turn_out_better(creature_pair, monkeypatch
 
 
 @pytest.mark.parametrize(("told", "alone"), [("sure", True), ("likely", False)])
-def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypatch, told, alone):
+def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypatch, output, alone):
     found = score_maps([Start("0", creature_pair.C), Start("1", astray)], creature_pair.fine)
     ranked = [replace(c, deformation_energy=1.0) for c in found]
     state = SearchState(
@@ -495,7 +495,7 @@ def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypat
         planned.extend(repair.start.name for repair in repairs)
         return dict(enumerate(ranked[: len(repairs)])), {}
 
-    monkeypatch.setattr(search_module, "verdict", lambda *_: told)
+    monkeypatch.setattr(search_module, "verdict", lambda *_: output)
     monkeypatch.setattr(search_module, "SCORE", replace(SCORE, repair_score=np.inf))
     monkeypatch.setattr(search_module, "_compare_exchanged", lambda state: state)
     monkeypatch.setattr(registration_refine, "SCORE", replace(SCORE, repairable_margin=np.inf))
@@ -508,34 +508,34 @@ def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypat
 def test_registered_positions_of_the_target_guide_as_well(creature_pair):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
     source, target = creature_pair.source, creature_pair.target
-    bent = target.mesh.vertices + 1.0
-    found = SearchResult(np.eye(5), "a", None, "unlikely", registered_vertices=bent, swapped=True)
-    led, alone = (
+    registered = target.mesh.vertices + 1.0
+    found = SearchResult(np.eye(5), "a", None, "unlikely", registered_vertices=registered, swapped=True)
+    guided, alone = (
         match_module._search_guidance(one, (source, target))
         for one in (found, replace(found, registered_vertices=None))
     )
-    lie = position_normal_guidance(source.mesh, Mesh(bent, target.mesh.faces))
+    lie = position_normal_guidance(source.mesh, Mesh(registered, target.mesh.faces))
     for side in ("source", "target"):
         both = np.hstack([getattr(alone, side), np.sqrt(alternating_module.WEIGHT) * getattr(lie, side)])
-        np.testing.assert_allclose(getattr(led, side), both)
+        np.testing.assert_allclose(getattr(guided, side), both)
 
 
 def test_a_map_is_registered_on_proxies_either_way(creature_pair, monkeypatch):
     """The vertices are those of the side that is registered; descriptors stay on their side."""
     source, target = creature_pair.source, creature_pair.target
     pair, asked = creature_pair.proxies.fine, []
-    led = DescriptorGuidance(source.mesh.vertices, target.mesh.vertices)
+    guided = DescriptorGuidance(source.mesh.vertices, target.mesh.vertices)
     usual = registration_refine.alternating_registration
 
-    def told(C, pair, guidance, landmarks):
+    def spy(C, pair, guidance, landmarks):
         asked.append((pair.source, guidance.source, guidance.target))
         return usual(C, pair, guidance, landmarks)
 
-    monkeypatch.setattr(registration_refine, "alternating_registration", told)
+    monkeypatch.setattr(registration_refine, "alternating_registration", spy)
     for swapped, moved, other in ((True, target, source), (False, source, target)):
-        found: Any = [*registration_refine.register_map_on_proxies(creature_pair.C, pair, led, NO_LANDMARKS, swapped)][
-            -1
-        ]
+        found: Any = [
+            *registration_refine.register_map_on_proxies(creature_pair.C, pair, guided, NO_LANDMARKS, swapped)
+        ][-1]
         assert error(found.functional_map, creature_pair) < 0.05
         assert found.registered_vertices.shape == moved.mesh.vertices.shape
         shape, own, theirs = asked.pop()
@@ -548,7 +548,7 @@ def test_a_map_is_registered_on_proxies_either_way(creature_pair, monkeypatch):
         raise NotConverged("it fell apart")
 
     monkeypatch.setattr(registration_refine, "alternating_registration", falls_apart)
-    ended = registration_refine.register_map_on_proxies(creature_pair.C, pair, led, NO_LANDMARKS)
+    ended = registration_refine.register_map_on_proxies(creature_pair.C, pair, guided, NO_LANDMARKS)
     assert [one is None for one in ended] == [False, True]
 
 
@@ -564,11 +564,11 @@ def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_ima
     best: Any = search_module._repaired(found[0], torn_first)
     assert best.score > found[0].score
     assert best.deformation_energy < found[0].deformation_energy
-    told = []
-    monkeypatch.setattr(search_module, "build_guidance", lambda *what, **_shot: told.append(what[2]))
+    calls = []
+    monkeypatch.setattr(search_module, "build_guidance", lambda *what, **_shot: calls.append(what[2]))
     pairs = np.array([[3, 5], [8, 2]])
     search_module._repaired(found[0], replace(torn_first, landmarks=pairs, rejected=np.array([True, False])))
-    np.testing.assert_array_equal(told[0], pairs[1:], err_msg="rejected landmarks take no part")
+    np.testing.assert_array_equal(calls[0], pairs[1:], err_msg="rejected landmarks take no part")
     monkeypatch.undo()
     compared = []
     monkeypatch.setattr(search_module, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)

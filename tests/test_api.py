@@ -91,10 +91,10 @@ def test_without_faces_it_is_a_point_cloud() -> None:
         (types.SimpleNamespace(points=V, cells={"tetra": F}, cells_dict={}), "surface first"),
     ],
 )
-def test_other_things_are_refused_by_name(shape: Any, told: str) -> None:
+def test_other_things_are_refused_by_name(shape: Any, message: str) -> None:
     with pytest.raises(InvalidInput) as caught:
         kfmaps.match(shape, MESH)
-    assert told in str(caught.value)
+    assert message in str(caught.value)
 
 
 @pytest.fixture(scope="module")
@@ -124,9 +124,9 @@ def test_progress_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     stages: list[str] = []
     for progress in (True, lambda stage, _done: stages.append(stage), False):
         kfmaps.match(MESH, MESH, replace(QUICK, refinement=None), landmarks=MARKS[:3], progress=progress)
-    told = capsys.readouterr().err
-    assert "solve" in told
-    assert told.count("solve") == 1
+    message = capsys.readouterr().err
+    assert "solve" in message
+    assert message.count("solve") == 1
     assert "solve" in stages
 
 
@@ -245,10 +245,10 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
         (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: expected"),  # pyright: ignore
     ],
 )
-def test_wrong_things_are_told_in_words(call: Any, told: str) -> None:
+def test_wrong_things_are_told_in_words(call: Any, message: str) -> None:
     with pytest.raises(InvalidInput) as caught:
         call()
-    assert told in str(caught.value)
+    assert message in str(caught.value)
 
 
 @pytest.mark.filterwarnings("ignore::kfmaps.KfmapsWarning")

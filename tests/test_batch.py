@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_collection
+from collecting import CONFIG, LANDMARKS, done, plan_of, registered, touch, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch import cache, work
@@ -58,7 +58,7 @@ def _arrays_of(record: Any, before: str = "") -> dict[str, Any]:
 
 def test_cached_samples_change_no_bit(tmp_path: Path) -> None:
     config = replace(CONFIG, search=Search(candidates=1, n_sign_functions=2), threads=1)
-    a, b = (prepare(bent(i, 300), config, name=str(i)) for i in (0, 1))
+    a, b = (prepare(registered(i, 300), config, name=str(i)) for i in (0, 1))
     entry = tmp_path / "a.npz"
     first = cached_samples(a, entry, 3)
     assert _samples_path(entry, 3).exists()
@@ -255,8 +255,8 @@ def test_mirrored_truth(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
         other = np.roll(truth, 7)
         write_vertex_numbers(folder / "corres" / "b1.sym.vts", truth if swap else other)
         write_vertex_numbers(folder / "corres" / "b1.vts", other if swap else truth, force=True)
-        marks = [read_vertex_numbers(folder / "corres" / "b0.vts"), truth]
-        for name, numbers in zip(("b0", "b1"), marks, strict=True):
+        landmark_vertices = [read_vertex_numbers(folder / "corres" / "b0.vts"), truth]
+        for name, numbers in zip(("b0", "b1"), landmark_vertices, strict=True):
             path = touch(folder / "landmarks" / f"{name}.vts")
             write_vertex_numbers(path, numbers[:5], force=True)
         result = done(plan_of(folder, tmp_path / f"o{swap}", lines=()))[0]

@@ -37,30 +37,30 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     out = tmp_path / "deep" / "out"
     words = ["batch", str(folder), "-o", str(out), "--workers", "1", *SIZES, *ZOOM, *MARKS]
     assert main([*words, "--pairs", str(pairs)]) == 0
-    told = capsys.readouterr().out
-    assert "2 pairs of 3 shapes" in told
-    assert "pairs 2/2, finished" in told
-    assert "summary 1/1" in told
+    output = capsys.readouterr().out
+    assert "2 pairs of 3 shapes" in output
+    assert "pairs 2/2, finished" in output
+    assert "summary 1/1" in output
     with open(out / "results.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     mean = sum(float(row["error_mean"]) for row in rows) / 2
-    assert f"mean error {100 * mean:.2f} % of √area over 2 pairs" in told
+    assert f"mean error {100 * mean:.2f} % of √area over 2 pairs" in output
     assert f"<dt>mean error (% of √area)</dt><dd>{100 * mean:.2f}</dd>" in (out / "summary.html").read_text(
         encoding="utf-8"
     )
     assert main(["config", *SIZES, *ZOOM, "-o", str(tmp_path / "config.toml")]) == 0
     assert read_settings(out / "settings.toml") == read_settings(tmp_path / "config.toml")
     assert main([*words, "--graph", "both"]) == 0
-    told = capsys.readouterr().out
-    assert "6 pairs of 3 shapes, 2 done already" in told
+    output = capsys.readouterr().out
+    assert "6 pairs of 3 shapes, 2 done already" in output
     assert (out / "summary.html").read_text(encoding="utf-8").count("data:image/png") == 6
     pairs.write_text("b0 b1\n")
     assert main([*words, "--pairs", str(pairs), "-q"]) == 0
     assert capsys.readouterr().out == ""
     assert main([*words, "--pairs", str(pairs), "--json", "--require", "sure"]) == 3  # single fits are not judged
-    told = json.loads(capsys.readouterr().out)
-    assert (told["done"], told["failed"], told["left"], told["verdicts"]) == (1, 0, 0, {"landmarks": 1})
-    assert str(out / "results.csv") in told["output"]
+    output = json.loads(capsys.readouterr().out)
+    assert (output["done"], output["failed"], output["left"], output["verdicts"]) == (1, 0, 0, {"landmarks": 1})
+    assert str(out / "results.csv") in output["output"]
 
 
 def star(folder: Path, tmp_path: Path) -> list[str]:
@@ -74,10 +74,10 @@ def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.Capt
     touch(folder / "b2.off", "OFF\n")
     words = star(folder, tmp_path)
     assert main(words) == 1
-    told = capsys.readouterr().out
-    assert "failed: b0 → b2: shape b2 could not be prepared" in told
-    assert "pairs 2/2 (1 failed), finished" in told
-    assert "1 pair failed" in told
+    output = capsys.readouterr().out
+    assert "failed: b0 → b2: shape b2 could not be prepared" in output
+    assert "pairs 2/2 (1 failed), finished" in output
+    assert "1 pair failed" in output
     assert main(words) == 1  # and nothing is tried again unasked
     assert "2 pairs of 3 shapes, 2 done already" in capsys.readouterr().out
 
@@ -101,9 +101,9 @@ def test_refusals(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
 ) -> None:
     assert main(["batch", str(folder), "-o", str(tmp_path / "out"), *words]) == 2
-    told = capsys.readouterr()
-    assert message in told.err
-    assert len(told.err.splitlines()) == 1
+    output = capsys.readouterr()
+    assert message in output.err
+    assert len(output.err.splitlines()) == 1
     assert not (tmp_path / "out").exists()
 
 
@@ -112,10 +112,10 @@ def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytes
     words = ["batch", str(folder), "-o", str(out), "--workers", "1", "--graph", "near", "--consistent"]
     words += [*SIZES, *ZOOM, *MARKS]
     assert main(words) == 0
-    told = capsys.readouterr().out
-    assert "3 pairs of 3 shapes" in told
-    assert "evidence of pairs 3/3" in told
-    assert "all maps agree: none replaced" in told
+    output = capsys.readouterr().out
+    assert "3 pairs of 3 shapes" in output
+    assert "evidence of pairs 3/3" in output
+    assert "all maps agree: none replaced" in output
     with open(out / "results.csv", encoding="utf-8", newline="") as file:
         assert all(float(row["agreement"]) > 0.5 for row in csv.DictReader(file))
     assert {p.name for p in (out / "consistent").iterdir()} >= {

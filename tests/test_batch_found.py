@@ -133,9 +133,9 @@ def test_landmark_lines_are_checked() -> None:
 
 
 def left(
-    finished: list[tuple[float, float]], sizes: list[float], begun: dict[int, float], workers: int
+    finished: list[tuple[float, float]], sizes: list[float], start: dict[int, float], workers: int
 ) -> float | None:
-    return WorkLeft(dict(enumerate(sizes)), finished=finished).remaining(begun, workers)
+    return WorkLeft(dict(enumerate(sizes)), finished=finished).remaining(start, workers)
 
 
 def test_remaining_time_is_exact_for_even_work_and_follows_sizes() -> None:
@@ -157,17 +157,17 @@ def test_remaining_time_is_exact_for_even_work_and_follows_sizes() -> None:
 
 def simulated(seconds: np.ndarray, sizes: np.ndarray, workers: int) -> list[tuple[int, float | None, float]]:
     """Of a run of invented durations, after each pair: how many are done, the estimate, and what the rest takes."""
-    work, clock, told = WorkLeft(dict(enumerate(sizes.tolist()))), 0.0, []
+    work, clock, calls = WorkLeft(dict(enumerate(sizes.tolist()))), 0.0, []
     running = [(seconds[i], i, 0.0) for i in range(workers)]
     for ended in range(len(seconds)):
         running.sort()
         clock, number, _ = running.pop(0)
         work.end(number, seconds[number])
-        begun = {i: clock - begin for _, i, begin in running}
-        told.append((ended + 1, work.remaining(begun, workers), clock))
+        start = {i: clock - begin for _, i, begin in running}
+        calls.append((ended + 1, work.remaining(start, workers), clock))
         if ended + workers < len(seconds):
             running.append((clock + seconds[ended + workers], ended + workers, clock))
-    return [(done, estimate, clock - now) for done, estimate, now in told]
+    return [(done, estimate, clock - now) for done, estimate, now in calls]
 
 
 @pytest.mark.parametrize("order", ["random", "small first", "large first"])

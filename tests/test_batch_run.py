@@ -163,20 +163,20 @@ class Machine(WorkerPool):
 def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kfmaps.batch.run._check_workers", lambda *_: None)
     plan = plan_of(write_collection(tmp_path / "c", 3), tmp_path / "out")
-    told: list[tuple[RunStatus, Result | None]] = []
+    calls: list[tuple[RunStatus, Result | None]] = []
     log: list[str] = []
 
     def note(_event: str, text: str, **_: object) -> None:
         log.append(text)
 
-    _match_pairs(plan, Machine("b1"), lambda *one: told.append(one), note)
-    results = [result for _, result in told if result is not None]
+    _match_pairs(plan, Machine("b1"), lambda *one: calls.append(one), note)
+    results = [result for _, result in calls if result is not None]
     failed = [r for r in results if r.status == "failed"]
     assert {(r.source, r.target) for r in results if r.status == "done"} == {("b0", "b2"), ("b2", "b0")}
     assert len(failed) == 4
     assert all("shape b1 could not be prepared: 3 workers died" in r.reason for r in failed)
-    assert told[-1][0].remaining == 0
-    assert str(told[-1][0]) == "pairs 6/6 (4 failed), finished"
+    assert calls[-1][0].remaining == 0
+    assert str(calls[-1][0]) == "pairs 6/6 (4 failed), finished"
     assert sum("shape b1 could not be prepared" in line for line in log) == 5  # itself and its pairs
 
 
@@ -219,8 +219,8 @@ def test_workers_use_one_thread_and_the_loopback_alone_and_do_not_meet(monkeypat
     with _local_workers(1) as workers, _local_workers(1) as others:  # a warning would be an error
         assert set(workers.scheduler_info()["workers"]).isdisjoint(others.scheduler_info()["workers"])
         assert workers.scheduler_info()["address"].startswith("tls://127.0.0.1:")
-        told: Any = workers.run(_about)
-        (worker,) = told.values()
+        output: Any = workers.run(_about)
+        (worker,) = output.values()
         assert worker["blas"] == 1
         assert worker["environment"] == ["1", None]
         assert worker["interrupt"] == signal.SIG_IGN

@@ -69,8 +69,8 @@ def test_the_summary_escapes_and_needs_no_network() -> None:
     assert all(address.startswith(("data:image/", "#")) for address in addresses)
     assert "default-src &#39;none&#39;" in page
     text = " ".join(part for parts in found.text.values() for part in parts)
-    for told in ("<b>name</b>", "<script>alert(2)</script>", "2 not done yet", "</pre><script>", "11.00", "1 failed"):
-        assert told in text
+    for output in ("<b>name</b>", "<script>alert(2)</script>", "2 not done yet", "</pre><script>", "11.00", "1 failed"):
+        assert output in text
 
 
 def test_columns_of_which_nothing_is_known_are_left_out() -> None:

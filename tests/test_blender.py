@@ -151,8 +151,8 @@ def test_groups_keys_and_texture_go_over(addon: types.ModuleType, pair: ExampleP
     with pytest.raises(ValueError, match="press Match"):
         addon.transfer_objects(source, target, texture=True, groups=True, keys=True)
     addon.found["a", "b"] = as_map(PointMap(pair.truth_faces, pair.truth_weights), pair.source)
-    told = addon.transfer_objects(source, target, texture=True, groups=True, keys=True)
-    assert told == "carried 12 vertex groups, 2 shape keys, texture coordinates"
+    output = addon.transfer_objects(source, target, texture=True, groups=True, keys=True)
+    assert output == "carried 12 vertex groups, 2 shape keys, texture coordinates"
 
     names, weights = addon.read_groups(target)
     assert names == list(shape.skin.names)

@@ -85,8 +85,8 @@ def test_pointing_shows_matches(page: Browser, poses: ExamplePair) -> None:
         assert sorted(page.run("return kfmaps.marks('target')")) == landing.tolist()
     missed = np.setdiff1d(np.arange(len(poses.source.vertices)), poses.truth)
     page.point("source", page.visible("source", missed, 1)[0])
-    told = page.until(lambda: re.search(r"← target (\d+).*nearest that has one is (\d+)", page.text("readout")))
-    assert poses.truth[int(told[1])] == int(told[2])
+    output = page.until(lambda: re.search(r"← target (\d+).*nearest that has one is (\d+)", page.text("readout")))
+    assert poses.truth[int(output[1])] == int(output[2])
     page.run(CHOOSE_MAP, "1")
     vertex = page.visible("target", np.arange(len(poses.truth)), 1)[0]
     page.point("target", vertex, click=True)
@@ -163,9 +163,9 @@ def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, 
     assert page.element("#goto-target").get_attribute("aria-invalid") == "true"
     view = page.element("#view-target")
     view.send_keys(Keys.ENTER)
-    told = re.match(r"target (\d+) → source (\d+)", page.text("pinned"))
-    assert told is not None, "the middle of the view is on the creature"
-    assert poses.truth[int(told[1])] == int(told[2])
+    output = re.match(r"target (\d+) → source (\d+)", page.text("pinned"))
+    assert output is not None, "the middle of the view is on the creature"
+    assert poses.truth[int(output[1])] == int(output[2])
     view.send_keys(Keys.ESCAPE)
     assert page.text("pinned") == ""
 
@@ -269,8 +269,8 @@ def test_confidence_is_of_the_map_that_is_shown(browser: Browser, poses: Example
         for vertex in browser.visible("target", np.flatnonzero(part), 1) + browser.visible("target", np.arange(300), 2):
             browser.point("target", vertex)
             begin = f"target {vertex} → source {points[vertex]}, local fit "
-            told = browser.until(lambda begin=begin: re.fullmatch(begin + "([0-9]+) %", browser.text("readout")))
-            assert float(told[1]) == pytest.approx(100 * sure[vertex], abs=0.51)
+            output = browser.until(lambda begin=begin: re.fullmatch(begin + "([0-9]+) %", browser.text("readout")))
+            assert float(output[1]) == pytest.approx(100 * sure[vertex], abs=0.51)
         browser.painted()
         view = browser.picture(browser.element("#view-target"))
         # viridis: what is unsure is violet, what is sure is green to yellow

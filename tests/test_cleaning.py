@@ -120,16 +120,18 @@ def test_surfaces_that_only_touch_stay_apart() -> None:
 @pytest.mark.parametrize("cut", [soup, seamed])
 def test_vertices_doubled_along_a_cut_have_the_map_of_the_whole(plain, cut) -> None:
     (pieces_s, was_s), (pieces_t, was_t) = cut(plain.source), cut(plain.target)
-    marks = [[np.flatnonzero(was == v)[-1] for v in at] for was, at in zip((was_s, was_t), MARKS.T, strict=True)]
+    landmark_vertices = [
+        [np.flatnonzero(was == v)[-1] for v in at] for was, at in zip((was_s, was_t), MARKS.T, strict=True)
+    ]
     with pytest.warns(KfmapsWarning, match="vertices on seams are connected; the numbering is kept"):
-        other = match(pieces_s, pieces_t, SMALL, landmarks=np.transpose(marks))
+        other = match(pieces_s, pieces_t, SMALL, landmarks=np.transpose(landmark_vertices))
     points = was_s[other.target_to_source]
     assert geodesic_errors(plain.source, points, plain.target_to_source[was_t]).max() < 0.1
     assert (points == plain.target_to_source[was_t]).mean() > 0.9  # another first sample
     np.testing.assert_allclose(other.local_confidence, plain.local_confidence[was_t], atol=0.15)
     # Welded in the order in which the places are met there is no difference at all.
     part_s, part_t = clean_mesh(pieces_s), clean_mesh(pieces_t)
-    inside = np.stack([part_s.to_clean[marks[0]], part_t.to_clean[marks[1]]], axis=1)
+    inside = np.stack([part_s.to_clean[landmark_vertices[0]], part_t.to_clean[landmark_vertices[1]]], axis=1)
     again = match(part_s.mesh, part_t.mesh, SMALL, landmarks=inside)
     np.testing.assert_array_equal(other.target_to_source, part_s.to_original[again.target_to_source][part_t.to_clean])
     np.testing.assert_array_equal(other.functional_map, again.functional_map)
@@ -138,17 +140,17 @@ def test_vertices_doubled_along_a_cut_have_the_map_of_the_whole(plain, cut) -> N
 def test_landmarks_on_duplicates_of_one_vertex_are_refused() -> None:
     pieces, was = soup(blob(300))
     copies = np.flatnonzero(was == 7)[:2]
-    marks = np.stack([copies, [3, 40]], axis=1)
+    landmark_vertices = np.stack([copies, [3, 40]], axis=1)
     with pytest.raises(InvalidInput, match=f"vertices {copies[0]} and {copies[1]}, which count as one"):
-        quietly(match, pieces, blob(300), SMALL, landmarks=marks)
+        quietly(match, pieces, blob(300), SMALL, landmarks=landmark_vertices)
 
 
 def test_specks_change_no_bit_of_the_rest(plain) -> None:
     dirty = littered(plain.source), littered(plain.target)
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as output:
         warnings.simplefilter("always")
         other = match(*dirty, SMALL, landmarks=MARKS)
-    assert sorted(str(w.message) for w in told) == [
+    assert sorted(str(w.message) for w in output) == [
         f"{name}: {what}"
         for name in ("source", "target")
         for what in (
@@ -235,10 +237,10 @@ def test_faces_that_name_a_vertex_twice_change_nothing() -> None:
     clean = blob(300)
     dirty = Mesh(clean.vertices, np.vstack([[[5, 5, 5], [7, 7, 8], [10, 11, 11]], clean.faces]))
     config = replace(SMALL, registration=NonRigid(n_levels=2, steps=2))
-    marks = np.stack([np.arange(0, 300, 60)] * 2, axis=1)
-    plain = match(clean, clean, config, landmarks=marks)
+    landmark_vertices = np.stack([np.arange(0, 300, 60)] * 2, axis=1)
+    plain = match(clean, clean, config, landmarks=landmark_vertices)
     for source, target in ((dirty, clean), (clean, dirty)):
-        found = quietly(match, source, target, config, landmarks=marks)
+        found = quietly(match, source, target, config, landmarks=landmark_vertices)
         assert np.array_equal(found.target_to_source, plain.target_to_source)
         assert np.array_equal(source.faces[found.precise().faces], clean.faces[plain.precise().faces])
 
@@ -250,6 +252,8 @@ def test_much_noise_is_smoothed_and_a_clean_mesh_stays(rng: np.random.Generator)
     with pytest.warns(KfmapsWarning, match="projected to a smooth surface"):
         found = prepare(noisy, SMALL)
     np.testing.assert_allclose(prepare(clean, SMALL).mesh.vertices, clean.vertices, atol=1e-12)
-    rough, smooth = (np.linalg.norm(m.vertices - clean.vertices, axis=1).mean() for m in (unit_area(noisy), found.mesh))
-    assert smooth < 0.7 * rough
+    coarse, smooth = (
+        np.linalg.norm(m.vertices - clean.vertices, axis=1).mean() for m in (unit_area(noisy), found.mesh)
+    )
+    assert smooth < 0.7 * coarse
     assert 1.0 < (found.extent or 0) < 0.9 * np.sqrt(surface_area(noisy))

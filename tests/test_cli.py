@@ -126,8 +126,8 @@ def test_required_verdicts() -> None:
         (["evaluate", "m", "--truth", "a"], "Option '--truth' requires"),
     ],
 )
-def test_usage_is_one_line(words: list[str], told: str) -> None:
-    assert told in run(*words).error
+def test_usage_is_one_line(words: list[str], output: str) -> None:
+    assert output in run(*words).error
 
 
 @pytest.mark.parametrize(
@@ -141,9 +141,9 @@ def test_usage_is_one_line(words: list[str], told: str) -> None:
         (OSError("odd"), "odd"),
     ],
 )
-def test_failures_are_one_line(raised: Exception, told: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failures_are_one_line(raised: Exception, output: str, monkeypatch: pytest.MonkeyPatch) -> None:
     stubbed(monkeypatch, raised)
-    assert told in run("info").error
+    assert output in run("info").error
 
 
 def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -176,10 +176,10 @@ def test_closed_pipe_is_silent(tmp_path: Path) -> None:
     assert process.stdout is not None
     assert process.stderr is not None
     process.stdout.close()
-    told = process.stderr.read()
+    output = process.stderr.read()
     process.stderr.close()
     assert process.wait(60) == cli.UNREAD
-    assert told == ""
+    assert output == ""
 
 
 def test_interrupted_match_leaves_nothing(tmp_path: Path) -> None:
@@ -211,8 +211,8 @@ def test_names_that_are_no_text(tmp_path: Path) -> None:
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only the allocator of Linux is told")
 def test_the_command_keeps_freed_memory():
     """Arrays of 40 MB have their pages once, not each time."""
-    told = subprocess.run([sys.executable, "-c", _PAGES], capture_output=True, text=True, check=True).stdout.split()
-    before, after = map(int, told)
+    output = subprocess.run([sys.executable, "-c", _PAGES], capture_output=True, text=True, check=True).stdout.split()
+    before, after = map(int, output)
     assert after < 0.2 * before
 
 

@@ -38,9 +38,9 @@ def no_work(monkeypatch: pytest.MonkeyPatch) -> None:
 def complaint(made: types.SimpleNamespace, *words: object) -> str:
     """The line, when nothing was written."""
     before = {path: path.read_bytes() for path in made.folder.iterdir() if path.is_file()}
-    told = run("match", made.source, made.target, *SMALL, *words, "-o", made.folder / "m.npz").error
+    message = run("match", made.source, made.target, *SMALL, *words, "-o", made.folder / "m.npz").error
     assert {path: path.read_bytes() for path in made.folder.iterdir() if path.is_file()} == before
-    return told
+    return message
 
 
 OFF = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
@@ -58,14 +58,14 @@ MESHES: dict[str, tuple[str | None, str]] = {
 @pytest.mark.parametrize("case", MESHES)
 @pytest.mark.usefixtures("no_work")
 def test_meshes(case: str, side: str, made: types.SimpleNamespace) -> None:
-    content, told = MESHES[case]
+    content, message = MESHES[case]
     path = made.folder / "m.off"
     if content is not None:
         path.write_text(content)
     setattr(made, side, path)
     line = complaint(made)
     assert line.startswith(str(path))
-    assert told.lower() in line.lower(), line
+    assert message.lower() in line.lower(), line
 
 
 @pytest.mark.parametrize(
@@ -79,10 +79,10 @@ def test_meshes(case: str, side: str, made: types.SimpleNamespace) -> None:
     ],
 )
 @pytest.mark.usefixtures("no_work")
-def test_landmarks(content: str, words: tuple[str, ...], told: str, made: types.SimpleNamespace) -> None:
+def test_landmarks(content: str, words: tuple[str, ...], message: str, made: types.SimpleNamespace) -> None:
     path = made.folder / "l.txt"
     path.write_text(content)
-    assert told in complaint(made, "--landmarks", path, *words)
+    assert message in complaint(made, "--landmarks", path, *words)
 
 
 DESCRIPTORS: dict[str, tuple[Callable[[], np.ndarray], Callable[[], np.ndarray], str]] = {
@@ -97,18 +97,18 @@ DESCRIPTORS: dict[str, tuple[Callable[[], np.ndarray], Callable[[], np.ndarray],
 @pytest.mark.parametrize("case", DESCRIPTORS)
 @pytest.mark.usefixtures("no_work")
 def test_descriptors(case: str, made: types.SimpleNamespace) -> None:
-    first, second, told = DESCRIPTORS[case]
+    first, second, message = DESCRIPTORS[case]
     np.save(made.folder / "s.npy", first())
     np.save(made.folder / "t.npy", second())
     words = ("--descriptors", made.folder / "s.npy", made.folder / "t.npy")
-    assert told in complaint(made, *words)
+    assert message in complaint(made, *words)
 
 
 def test_a_missing_file_is_told_before_an_existing_map(made: types.SimpleNamespace) -> None:
     (made.folder / "m.npz").write_text("precious")
-    told = run("match", made.source, made.folder / "nope.ply", "-o", made.folder / "m.npz").error
-    assert "nope.ply: expected a file, got nothing there" in told
-    assert "m.npz" not in told
+    message = run("match", made.source, made.folder / "nope.ply", "-o", made.folder / "m.npz").error
+    assert "nope.ply: expected a file, got nothing there" in message
+    assert "m.npz" not in message
 
 
 def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
@@ -143,10 +143,10 @@ def test_settings(made: types.SimpleNamespace) -> None:
     [("m.xlsx", ".npz"), ("m", "no extension"), ("none/m.npz", "an existing folder"), ("folder.npz", "a folder")],
 )
 @pytest.mark.usefixtures("no_work")
-def test_output(name: str, told: str, made: types.SimpleNamespace) -> None:
+def test_output(name: str, message: str, made: types.SimpleNamespace) -> None:
     (made.folder / "folder.npz").mkdir()
     line = run("match", made.source, made.target, "-o", made.folder / name).error
-    assert told in line
+    assert message in line
     assert not (made.folder / "m.npz").exists()
 
 
@@ -189,16 +189,16 @@ def test_what_is_read_is_not_replaced(
         output = f"link{Path(read).suffix}"
         link(made.folder / read, output)
     before = Path(read).read_bytes()
-    told = run(*words, output, "--force").error
-    assert "expected a file other than the inputs" in told
+    message = run(*words, output, "--force").error
+    assert "expected a file other than the inputs" in message
     assert Path(read).read_bytes() == before
 
 
 def test_numbers_out_of_proportion(made: types.SimpleNamespace) -> None:
     """Refused with what they would take, before any work."""
     words = ("--set", "descriptors.n_spectral=1000000000", "-o", made.folder / "m.npz")
-    told = run("match", made.source, made.target, *SMALL, *words).error
-    assert "1,600 GB for 1,000,000,000 descriptors of 200 points" in told
+    message = run("match", made.source, made.target, *SMALL, *words).error
+    assert "1,600 GB for 1,000,000,000 descriptors of 200 points" in message
     assert not (made.folder / "m.npz").exists()
 
 

@@ -32,10 +32,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_numbers(folder: Path) -> None:
-    told = json.loads((folder / "told.json").read_text())
-    assert told["shape"] == "two poses"
-    assert (told["source_vertices"], told["target_vertices"]) == (1500, 1200)
-    automatic, kernel, plain = told["methods"]
+    output = json.loads((folder / "told.json").read_text())
+    assert output["shape"] == "two poses"
+    assert (output["source_vertices"], output["target_vertices"]) == (1500, 1200)
+    automatic, kernel, plain = output["methods"]
     assert automatic["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
     assert kernel["given"] == plain["given"] != automatic["given"]
     assert kernel["verdict"] == plain["verdict"] == "landmarks"
@@ -47,14 +47,14 @@ def test_numbers(folder: Path) -> None:
 
 
 def test_table_for_people(folder: Path) -> None:
-    told = json.loads((folder / "told.json").read_text())
-    sizes = {name: told[name] for name in ("source_vertices", "target_vertices")}
+    output = json.loads((folder / "told.json").read_text())
+    sizes = {name: output[name] for name in ("source_vertices", "target_vertices")}
     file = io.StringIO()
-    Console(width=200, file=file).print(_table(told["shape"], sizes, told["methods"]))
+    Console(width=200, file=file).print(_table(output["shape"], sizes, output["methods"]))
     shown = file.getvalue()
     assert "two poses: 1,500 and 1,200 vertices" in shown
     rows = [line for line in shown.splitlines() if "landmarks " in line]
-    for line, row in zip(rows, told["methods"], strict=True):
+    for line, row in zip(rows, output["methods"], strict=True):
         assert row["method"] in line
         for error in filter(None, (row["error"], row["raw_error"])):  # a search has no fit alone
             assert f"{100 * error:.2f}" in line
@@ -82,9 +82,9 @@ def test_picture(folder: Path) -> None:
         (["--landmarks", "0"], "--landmarks"),
     ],
 )
-def test_refused(words: list[str], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_refused(words: list[str], output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert told in run("demo", *words).error.replace("'", "")
+    assert output in run("demo", *words).error.replace("'", "")
     assert list(tmp_path.iterdir()) == []
 
 

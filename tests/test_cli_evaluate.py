@@ -47,17 +47,17 @@ def truth(made: types.SimpleNamespace) -> tuple[object, ...]:
 
 def test_numbers(made: types.SimpleNamespace) -> None:
     """Mean, median, worst and area under the curve are those of distances measured one by one."""
-    told = numbers(made, "--source", made.source, "--target", made.target, *truth(made))
+    output = numbers(made, "--source", made.source, "--target", made.target, *truth(made))
     errors = made.errors
     assert errors[:50].min() >= 0
-    assert told["mean"] == pytest.approx(errors.mean(), rel=1e-9)
-    assert told["median"] == 0.0
-    assert told["worst"] == pytest.approx(errors.max(), rel=1e-9)
-    assert told["exact"] == pytest.approx((errors == 0).mean())
-    assert told["auc"] == pytest.approx(np.clip(0.25 - errors, 0, None).mean() / 0.25)
+    assert output["mean"] == pytest.approx(errors.mean(), rel=1e-9)
+    assert output["median"] == 0.0
+    assert output["worst"] == pytest.approx(errors.max(), rel=1e-9)
+    assert output["exact"] == pytest.approx((errors == 0).mean())
+    assert output["auc"] == pytest.approx(np.clip(0.25 - errors, 0, None).mean() / 0.25)
     areas = vertex_areas(made.meshes[0])
-    assert told["coverage"] == pytest.approx(areas[np.unique(made.points)].sum() / areas.sum())
-    assert told["points"] == 300
+    assert output["coverage"] == pytest.approx(areas[np.unique(made.points)].sum() / areas.sum())
+    assert output["points"] == 300
 
 
 def test_source_is_the_one_that_the_map_names(made: types.SimpleNamespace) -> None:
@@ -73,8 +73,8 @@ def test_vertices_without_counterpart_are_in_no_mean(made: types.SimpleNamespace
     points[:50] = -1
     save_map(tmp_path / "m.npz", Match(points))
     words = ("evaluate", tmp_path / "m.npz", "--source", made.source, *truth(made))
-    told = json.loads(run(*words, "--json").stdout)
-    assert (told["mean"], told["exact"], told["matched"]) == (0.0, 1.0, pytest.approx(250 / 300))
+    output = json.loads(run(*words, "--json").stdout)
+    assert (output["mean"], output["exact"], output["matched"]) == (0.0, 1.0, pytest.approx(250 / 300))
     shown = run(*words).stdout
     assert "of the truth's points matched" in shown
     assert "83.3 %" in shown
@@ -88,10 +88,10 @@ def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     swapped = rng.permutation(300)
     (tmp_path / "sym.vts").write_text("".join(f"{v + 1}\n" for v in swapped))
-    told = numbers(made, *truth(made), "--symmetric", tmp_path / "sym.vts")
+    output = numbers(made, *truth(made), "--symmetric", tmp_path / "sym.vts")
     other = assess(made.meshes[0], made.points, Truth(made.truth, swapped))
-    assert told["mirrored"]["mean"] == pytest.approx(other.errors.mean)
-    assert told["mirrored"]["mean"] > told["mean"]
+    assert output["mirrored"]["mean"] == pytest.approx(other.errors.mean)
+    assert output["mirrored"]["mean"] > output["mean"]
     words = ("--truth", made.truth_source, tmp_path / "sym.vts")
     assert "swapped" in run("evaluate", made.map, *words, "--symmetric", made.truth_target).stdout
     assert "swapped" not in run("evaluate", made.map, *truth(made), "--symmetric", tmp_path / "sym.vts").stdout
@@ -99,8 +99,8 @@ def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
 
 def test_identity(made: types.SimpleNamespace, tmp_path: Path) -> None:
     save_map(tmp_path / "i.txt", Match(np.arange(300)))
-    told = json.loads(run("evaluate", tmp_path / "i.txt", "--source", made.source, "--identity", "--json").stdout)
-    assert (told["mean"], told["exact"], told["auc"], told["coverage"]) == (0.0, 1.0, 1.0, pytest.approx(1.0))
+    output = json.loads(run("evaluate", tmp_path / "i.txt", "--source", made.source, "--identity", "--json").stdout)
+    assert (output["mean"], output["exact"], output["auc"], output["coverage"]) == (0.0, 1.0, 1.0, pytest.approx(1.0))
 
 
 def test_curve(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -122,9 +122,9 @@ def test_infinite_errors_are_null(tmp_path: Path) -> None:
     write_mesh(tmp_path / "two.off", two)
     save_map(tmp_path / "m.txt", Match(np.r_[60:120, 60:120]))
     ran = run("evaluate", tmp_path / "m.txt", "--source", tmp_path / "two.off", "--identity", "--json")
-    told = json.loads(ran.stdout)
-    assert told["mean"] is None
-    assert told["exact"] == 0.5
+    output = json.loads(ran.stdout)
+    assert output["mean"] is None
+    assert output["exact"] == 0.5
 
 
 def test_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
         ((*truth(made), "--curve", tmp_path / "none" / "c.csv"), "existing folder"),
     ]
     before = sorted(tmp_path.iterdir())
-    for words, told in cases:
-        assert told in run("evaluate", made.map, "--curve", tmp_path / "c.csv", *words).error, words
+    for words, output in cases:
+        assert output in run("evaluate", made.map, "--curve", tmp_path / "c.csv", *words).error, words
     assert "--source" in run("evaluate", tmp_path / "plain.txt", *truth(made)).error
     assert sorted(tmp_path.iterdir()) == before

@@ -88,15 +88,15 @@ def test_summary_for_machines(made: types.SimpleNamespace, tmp_path: Path) -> No
     truth = ("--truth", made.truth_source, made.truth_target)
     ran = match(made, "-o", tmp_path / "m.npz", "--json", "--seed", "5", *truth)
     assert ran.stderr == ""
-    told = json.loads(ran.stdout)
-    assert (told["source_file"]["n_vertices"], told["target_file"]["n_vertices"]) == (300, 300)
-    assert (told["n_landmarks"], told["seed"], told["verdict"]) == (6, 5, "landmarks")
-    assert told["map_size"] == [30, 30]
-    assert told["fit"]["status"] == "converged"
-    assert 0 < told["fit"]["rank"] <= 60
-    assert told["errors"]["mean"] == 0.0
-    assert told["errors"]["exact"] == 1.0
-    assert told["output"] == str(tmp_path / "m.npz")
+    output = json.loads(ran.stdout)
+    assert (output["source_file"]["n_vertices"], output["target_file"]["n_vertices"]) == (300, 300)
+    assert (output["n_landmarks"], output["seed"], output["verdict"]) == (6, 5, "landmarks")
+    assert output["map_size"] == [30, 30]
+    assert output["fit"]["status"] == "converged"
+    assert 0 < output["fit"]["rank"] <= 60
+    assert output["errors"]["mean"] == 0.0
+    assert output["errors"]["exact"] == 1.0
+    assert output["output"] == str(tmp_path / "m.npz")
 
 
 def test_odd_mesh_is_warned_about_and_matched(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -106,8 +106,8 @@ def test_odd_mesh_is_warned_about_and_matched(made: types.SimpleNamespace, tmp_p
     words = ("match", tmp_path / "loose.off", made.target, "--landmarks", made.landmarks, *SMALL)
     words = (*words, "--preset", "single-fit", "-o", tmp_path / "m.npz")
     ran = run(*words)
-    told = [line for line in ran.stderr.splitlines() if line.startswith("kfmaps: ")]
-    assert told == [f"kfmaps: warning: {tmp_path / 'loose.off'}: 1 vertices that no face uses; they are kept"]
+    output = [line for line in ran.stderr.splitlines() if line.startswith("kfmaps: ")]
+    assert output == [f"kfmaps: warning: {tmp_path / 'loose.off'}: 1 vertices that no face uses; they are kept"]
     points = load_map(tmp_path / "m.npz").target_to_source
     # The loose vertex is as good as the one nearest to it.
     twin = np.linalg.norm(mesh.vertices - 9, axis=1).argmin()
@@ -151,32 +151,32 @@ def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
     ran = match(
         made, *words, "--set", "descriptors.signature=none", "--json", "-o", tmp_path / "m.npz", landmarks=False
     )
-    told = json.loads(ran.stdout)
-    assert (told["verdict"], told["n_landmarks"]) == ("unchecked", 0)
+    output = json.loads(ran.stdout)
+    assert (output["verdict"], output["n_landmarks"]) == ("unchecked", 0)
     np.testing.assert_array_equal(load_map(tmp_path / "m.npz").target_to_source, made.truth)
 
 
 def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
     words = (*SEARCH, "--json", "-o", tmp_path / "m.npz")
-    told = json.loads(match(made, *words, landmarks=False).stdout)
-    assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
-    assert 0 <= told["confidence"] <= 1
+    output = json.loads(match(made, *words, landmarks=False).stdout)
+    assert output["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
+    assert 0 <= output["confidence"] <= 1
     found = load_map(tmp_path / "m.npz")
-    assert found.confidence == pytest.approx(told["confidence"])
-    assert len(found.alternatives) == told["n_alternatives"]
-    assert len(told["score"]["scores"]) == 1 + told["n_alternatives"]
+    assert found.confidence == pytest.approx(output["confidence"])
+    assert len(found.alternatives) == output["n_alternatives"]
+    assert len(output["score"]["scores"]) == 1 + output["n_alternatives"]
     sure = local_confidence(made.meshes[0], made.meshes[1], found.target_to_source)
     np.testing.assert_allclose(found.local_confidence, sure, atol=1e-9)
-    assert told["mean_local_confidence"] == pytest.approx(sure.mean())
-    assert "confidence" in told["seconds"]
+    assert output["mean_local_confidence"] == pytest.approx(sure.mean())
+    assert "confidence" in output["seconds"]
 
 
 def test_landmarks_take_part_in_the_search(made: types.SimpleNamespace, tmp_path: Path) -> None:
     words = (*SEARCH, "--landmarks", made.landmarks, "--json", "-o", tmp_path / "m.npz")
-    told = json.loads(match(made, *words, landmarks=False).stdout)
-    assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
-    assert (told["n_landmarks"], told["score"]["rejected_landmarks"]) == (6, [])
-    assert len(told["score"]["scores"]) == 1 + told["n_alternatives"]
+    output = json.loads(match(made, *words, landmarks=False).stdout)
+    assert output["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
+    assert (output["n_landmarks"], output["score"]["rejected_landmarks"]) == (6, [])
+    assert len(output["score"]["scores"]) == 1 + output["n_alternatives"]
 
 
 def test_same_seed_same_map(made: types.SimpleNamespace, tmp_path: Path) -> None:

@@ -25,9 +25,9 @@ def test_meshes_are_told_apart_by_their_content(tmp_path: Path, monkeypatch: pyt
     path = tmp_path / f"mesh{suffix}"
     write_mesh(path, mesh)
     assert content_suffix(path.read_bytes()) == suffix
-    told = piped(monkeypatch, path.read_bytes(), "info", "-", "--json")
-    assert told.status == 0
-    assert '"vertices": 300' in told.stdout
+    output = piped(monkeypatch, path.read_bytes(), "info", "-", "--json")
+    assert output.status == 0
+    assert '"vertices": 300' in output.stdout
 
 
 @pytest.mark.parametrize(
@@ -54,14 +54,14 @@ def test_a_map_goes_through_pipes(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     """A mesh in, a map out; the map in, values out. What people read goes to standard error."""
     found = shapes(tmp_path)
     options = ["--landmarks", found.landmarks, "--preset", "single-fit", *SMALL]
-    told = piped(monkeypatch, found.source.read_bytes(), "match", "-", found.target, *options, "-o", "-")
-    assert told.status == 0
-    np.testing.assert_array_equal(np.array(told.stdout.split(), dtype=int), found.truth)
-    assert "verdict" in told.stderr
+    output = piped(monkeypatch, found.source.read_bytes(), "match", "-", found.target, *options, "-o", "-")
+    assert output.status == 0
+    np.testing.assert_array_equal(np.array(output.stdout.split(), dtype=int), found.truth)
+    assert "verdict" in output.stderr
     values = tmp_path / "values.txt"
     values.write_text("".join(f"{i}\n" for i in range(300)))
-    told = piped(monkeypatch, told.stdout.encode(), "transfer", "-", values, "-o", "-.txt")
-    np.testing.assert_array_equal(np.array(told.stdout.split(), dtype=int), found.truth)
+    output = piped(monkeypatch, output.stdout.encode(), "transfer", "-", values, "-o", "-.txt")
+    np.testing.assert_array_equal(np.array(output.stdout.split(), dtype=int), found.truth)
 
 
 def test_settings_go_through_pipes(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -77,8 +77,8 @@ def test_settings_go_through_pipes(monkeypatch: pytest.MonkeyPatch) -> None:
         (["batch", "a", "-o", "-"], b"", "output -: expected a folder or a file with a name, got standard output."),
     ],
 )
-def test_what_streams_cannot_do(monkeypatch: pytest.MonkeyPatch, words: list[str], data: bytes, told: str) -> None:
-    assert told in piped(monkeypatch, data, *words).error
+def test_what_streams_cannot_do(monkeypatch: pytest.MonkeyPatch, words: list[str], data: bytes, output: str) -> None:
+    assert output in piped(monkeypatch, data, *words).error
 
 
 def test_a_number_is_no_stream() -> None:

@@ -43,9 +43,9 @@ def test_styles_stay_and_controls_do_not() -> None:
     console = Terminal(file=stream, force_terminal=True, color_system="standard", width=200)
     line = EVIL.replace("\n", "")
     console.print(Text(f"one {line}", style="red"), f"two {line}", markup=False, highlight=False)
-    ours, reset, told = stream.getvalue().rstrip("\n").partition("\x1b[0m")
+    ours, reset, message = stream.getvalue().rstrip("\n").partition("\x1b[0m")
     assert (ours[:9], reset) == ("\x1b[31mone ", "\x1b[0m")
-    assert (ours[9:] + told).isprintable()
+    assert (ours[9:] + message).isprintable()
     assert "\\x1b]0;title" in ours
 
 

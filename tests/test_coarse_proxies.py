@@ -27,52 +27,52 @@ def mesh(pair: datasets.ExamplePair) -> Mesh:
 
 
 @pytest.fixture(scope="module")
-def copy(mesh: Mesh) -> CoarseProxy:
+def proxy(mesh: Mesh) -> CoarseProxy:
     return coarse_proxy(mesh, spread_vertices(mesh, 600, np.array([7, 2000])))
 
 
-def test_every_vertex_belongs_to_the_nearest_vertex_of_the_proxy(mesh: Mesh, copy: CoarseProxy) -> None:
-    assert 550 < len(copy.vertices) < 620
-    assert np.isin([7, 2000], copy.vertices).all()
-    np.testing.assert_array_equal(copy.owner[copy.vertices], np.arange(len(copy.vertices)))
-    np.testing.assert_array_equal(copy.mesh.vertices, mesh.vertices[copy.vertices])
-    assert (np.bincount(copy.mesh.faces.ravel(), minlength=len(copy.vertices)) > 0).all()
-    away = dijkstra(geodesic_graph(mesh, 0), indices=copy.vertices)
-    np.testing.assert_allclose(away[copy.owner, np.arange(len(mesh.vertices))], away.min(axis=0))
+def test_every_vertex_belongs_to_the_nearest_vertex_of_the_proxy(mesh: Mesh, proxy: CoarseProxy) -> None:
+    assert 550 < len(proxy.vertices) < 620
+    assert np.isin([7, 2000], proxy.vertices).all()
+    np.testing.assert_array_equal(proxy.owner[proxy.vertices], np.arange(len(proxy.vertices)))
+    np.testing.assert_array_equal(proxy.mesh.vertices, mesh.vertices[proxy.vertices])
+    assert (np.bincount(proxy.mesh.faces.ravel(), minlength=len(proxy.vertices)) > 0).all()
+    away = dijkstra(geodesic_graph(mesh, 0), indices=proxy.vertices)
+    np.testing.assert_allclose(away[proxy.owner, np.arange(len(mesh.vertices))], away.min(axis=0))
 
 
 def test_a_small_mesh_is_its_own_proxy(mesh: Mesh) -> None:
-    copy = coarse_proxy(mesh, spread_vertices(mesh, 3000))
-    assert copy.mesh is mesh
-    np.testing.assert_array_equal(copy.owner, np.arange(3000))
+    proxy = coarse_proxy(mesh, spread_vertices(mesh, 3000))
+    assert proxy.mesh is mesh
+    np.testing.assert_array_equal(proxy.owner, np.arange(3000))
 
 
 def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(mesh: Mesh) -> None:
     loose = mesh.vertices[[5, 100]] + 1e-4
     with_loose = joined(mesh, Mesh(loose, NO_FACES))
-    copy = coarse_proxy(with_loose, spread_vertices(with_loose, 600))
+    proxy = coarse_proxy(with_loose, spread_vertices(with_loose, 600))
     for vertex in (-2, -1):
-        away = np.linalg.norm(copy.mesh.vertices - loose[vertex], axis=1)
-        assert copy.owner[vertex] == away.argmin()
+        away = np.linalg.norm(proxy.mesh.vertices - loose[vertex], axis=1)
+        assert proxy.owner[vertex] == away.argmin()
 
 
-def test_a_motion_of_the_proxy_is_that_of_the_mesh(mesh: Mesh, copy: CoarseProxy) -> None:
+def test_a_motion_of_the_proxy_is_that_of_the_mesh(mesh: Mesh, proxy: CoarseProxy) -> None:
     turn = rotation(0)
-    turns = np.broadcast_to(turn, (len(copy.vertices), 3, 3))
-    moved = embedded_deformation(copy, mesh, copy.mesh.vertices @ turn.T + 1.0, turns)
+    turns = np.broadcast_to(turn, (len(proxy.vertices), 3, 3))
+    moved = embedded_deformation(proxy, mesh, proxy.mesh.vertices @ turn.T + 1.0, turns)
     np.testing.assert_allclose(moved, mesh.vertices @ turn.T + 1.0, atol=1e-12)
 
 
-def test_a_mesh_deforms_as_its_proxy_does(mesh: Mesh, copy: CoarseProxy) -> None:
-    def bent(x: np.ndarray) -> np.ndarray:
+def test_a_mesh_deforms_as_its_proxy_does(mesh: Mesh, proxy: CoarseProxy) -> None:
+    def registered(x: np.ndarray) -> np.ndarray:
         angle = 1.5 * x[:, 1]
         turned = np.cos(angle) * x[:, 0] - np.sin(angle) * x[:, 2], np.sin(angle) * x[:, 0] + np.cos(angle) * x[:, 2]
         return np.stack([turned[0], x[:, 1], turned[1]], axis=1)
 
-    there = bent(copy.mesh.vertices)
-    found = embedded_deformation(copy, mesh, there, rotations(build_arap(copy.mesh), there))
-    off = np.linalg.norm(found - bent(mesh.vertices), axis=1)
-    snapped = np.linalg.norm(there[copy.owner] - bent(mesh.vertices), axis=1)
+    there = registered(proxy.mesh.vertices)
+    found = embedded_deformation(proxy, mesh, there, rotations(build_arap(proxy.mesh), there))
+    off = np.linalg.norm(found - registered(mesh.vertices), axis=1)
+    snapped = np.linalg.norm(there[proxy.owner] - registered(mesh.vertices), axis=1)
     assert off.mean() < 0.1 * snapped.mean()
     assert off.max() < 0.5 * snapped.max()
 
@@ -85,9 +85,9 @@ def test_a_large_mesh_is_registered_as_well_with_its_proxy_first(
     slid = truth + 0.03 * np.sin(7 * truth[:, [1, 2, 0]])
     start = np.linalg.norm(slid[:, None] - source.vertices[None], axis=2).argmin(axis=1)
 
-    def off(marks: np.ndarray | None = None) -> tuple[np.ndarray, float]:
+    def off(landmark_vertices: np.ndarray | None = None) -> tuple[np.ndarray, float]:
         done: list[float] = []
-        found = NonRigid()(source, target, start, progress=done.append, landmarks=marks)
+        found = NonRigid()(source, target, start, progress=done.append, landmarks=landmark_vertices)
         assert (np.diff(done) >= 0).all()
         assert done[-1] == pytest.approx(1)
         places = np.einsum("ti,tij->tj", found.weights, source.vertices[source.faces[found.faces]])

@@ -30,8 +30,8 @@ def symmetric():
     return samples.basis, mesh.vertices[samples.vertices]
 
 
-def run(C, basis, weight, led):
-    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, guidance=led).functional_map
+def run(C, basis, weight, guided):
+    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, guidance=guided).functional_map
 
 
 def test_without_weight_or_guidance_it_is_plain_zoomout(symmetric):
@@ -67,8 +67,8 @@ def test_on_samples_of_large_shapes_the_guidance_is_sampled_too():
 def test_guidance_is_scaled_shared_and_truncated():
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=(200, 50)) * 7, rng.normal(size=(150, 50)) * 7
-    guides: Any = descriptor_guidance(a, b, dimensions=50), descriptor_guidance(a, b)
-    found, short = guides
+    guidances: Any = descriptor_guidance(a, b, dimensions=50), descriptor_guidance(a, b)
+    found, short = guidances
     before, after = np.vstack([a, b]), np.vstack([found.source, found.target])
     i, j = rng.permutation(350)[:340].reshape(2, 170)
     ratio = ((before[i] - before[j]) ** 2).sum(axis=1) / ((after[i] - after[j]) ** 2).sum(axis=1)

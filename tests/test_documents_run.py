@@ -56,8 +56,8 @@ def answer(made: Path) -> match_module.Match:
     pair = [kfmaps.read_mesh(made / name) for name in ("a.ply", "b.ply")]
     found = match_module.match(pair[0], pair[1], config, landmarks=kfmaps.read_landmarks(made / "pairs.txt"))
     rng = np.random.default_rng(0)
-    rough = np.where(rng.random(len(found.target_to_source)) < 0.1, 0, found.target_to_source)
-    return replace(found, verdict="ambiguous", confidence=0.4, score=MatchScore((-1.0, -1.1)), alternatives=(rough,))
+    coarse = np.where(rng.random(len(found.target_to_source)) < 0.1, 0, found.target_to_source)
+    return replace(found, verdict="ambiguous", confidence=0.4, score=MatchScore((-1.0, -1.1)), alternatives=(coarse,))
 
 
 @pytest.fixture

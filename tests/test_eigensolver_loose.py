@@ -33,11 +33,11 @@ def test_loose_pairs_are_nearly_the_exact_ones() -> None:
 @pytest.mark.parametrize("k", [100, 200])
 def test_what_is_told_of_the_progress_ends_near_one(k: int, tolerance: float) -> None:
     """The solves that are counted are about as many as were expected, and no fewer are expected than there are."""
-    told: list[float] = []
+    calls: list[float] = []
     operator = operators(unit_area(blob(1500)))
-    smallest_eigenpairs(*operator, k, tolerance=tolerance, progress=told.append)
-    assert 0.7 < told[-1] < 0.99
-    assert len(set(told)) == len(told)
+    smallest_eigenpairs(*operator, k, tolerance=tolerance, progress=calls.append)
+    assert 0.7 < calls[-1] < 0.99
+    assert len(set(calls)) == len(calls)
 
 
 def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -45,12 +45,12 @@ def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: p
     stiffness, mass = operators(unit_area(blob(1500)))
     ends = np.random.default_rng(0).permutation(1500).reshape(-1, 2)
     edges = csr_array((np.tile([1.0, -1.0], 750), ends.ravel(), 2 * np.arange(751)), shape=(750, 1500))
-    rough = stiffness + 1e6 * edges.T @ edges
-    loose = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2)
-    exact = smallest_eigenpairs(csr_array(rough), mass, 40)
+    coarse = stiffness + 1e6 * edges.T @ edges
+    loose = smallest_eigenpairs(csr_array(coarse), mass, 40, tolerance=1e-2)
+    exact = smallest_eigenpairs(csr_array(coarse), mass, 40)
     assert np.array_equal(loose.values, exact.values)
     monkeypatch.setattr(eigensolver_module, "_MAX_LOOSE_RESIDUAL", np.inf)
-    again = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2)
+    again = smallest_eigenpairs(csr_array(coarse), mass, 40, tolerance=1e-2)
     assert np.array_equal(again.values, exact.values)
 
 

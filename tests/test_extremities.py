@@ -48,30 +48,30 @@ def creature():
 
 
 @pytest.fixture(scope="module")
-def probes(creature):
+def shape_samples(creature):
     return sample_for_scoring(creature[0]), sample_for_scoring(creature[1])
 
 
 @pytest.fixture(scope="module")
-def on(creature, probes):
-    return two_level_samples(creature[0], creature[1], probes)
+def on(creature, shape_samples):
+    return two_level_samples(creature[0], creature[1], shape_samples)
 
 
 SIGNS = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
 
 
 @pytest.fixture
-def itself(creature, probes):
+def itself(creature, shape_samples):
     """Copies of one creature, to be bent onto each other."""
-    return proxy_pair(creature[0], creature[0], (probes[0].proxy, probes[0].proxy))
+    return proxy_pair(creature[0], creature[0], (shape_samples[0].proxy, shape_samples[0].proxy))
 
 
 def identity(count):
     return ExtremityMatch(np.arange(count), np.arange(count))
 
 
-def test_extremities_are_far_from_everything_around_them_and_from_each_other(probes):
-    for one in probes:
+def test_extremities_are_far_from_everything_around_them_and_from_each_other(shape_samples):
+    for one in shape_samples:
         between = one.distances[np.ix_(one.extremities.points, one.extremities.points)]
         assert len(one.extremities.points) >= 5
         assert (between[~np.eye(len(between), dtype=bool)] >= _MIN_DISTANCE).all()
@@ -82,8 +82,8 @@ def test_extremities_are_far_from_everything_around_them_and_from_each_other(pro
         )
 
 
-def test_extremities_do_not_depend_on_units_position_and_numbering(creature, probes):
-    shape, one = creature[0], probes[0]
+def test_extremities_do_not_depend_on_units_position_and_numbering(creature, shape_samples):
+    shape, one = creature[0], shape_samples[0]
     order = np.random.default_rng(0).permutation(len(shape.mesh.vertices))
     moved = reordered(Mesh(shape.mesh.vertices @ rotation(1).T + 5.0, shape.mesh.faces), order)
     rows = np.argsort(order)[one.samples.vertices]
@@ -107,8 +107,8 @@ def test_turn_is_the_sine_between_two_directions():
     assert not _gradient_cross(cloud_of(flat), functions).any()
 
 
-def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
-    one = probes[0].extremities
+def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(shape_samples):
+    one = shape_samples[0].extremities
     m = len(one.points)
     whole = identity(m)
     same, turned = extremity_cost(one, one, whole), extremity_cost(one, one.mirrored(), whole)
@@ -118,22 +118,22 @@ def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
     assert extremity_features(one, whole.source).shape == (len(one.distances[0]), m + m * (m - 1) // 2)
 
 
-def test_the_true_extremity_match_is_among_the_first(creature, probes, on):
+def test_the_true_extremity_match_is_among_the_first(creature, shape_samples, on):
     found = match_extremities(on.coarse.source, on.coarse.target, on.coarse.descriptor_cost)
-    a, b = probes[0], probes[1]
+    a, b = shape_samples[0], shape_samples[1]
     truth = creature[2]
     images = truth[b.samples.vertices[b.extremities.points]]
     vertices = creature[0].mesh.vertices
     tip = a.samples.vertices[a.extremities.points]
     off = np.linalg.norm(vertices[tip][:, None] - vertices[images][None], axis=2)
-    worst = [off[pairing.source, pairing.target].max() for pairing in found]
+    worst = [off[extremity_match.source, extremity_match.target].max() for extremity_match in found]
     assert min(worst[:8]) < 0.2
     assert max(worst) > 0.5
     assert all(len(set(p.target)) == len(p.target) == len(p.source) for p in found)
 
 
-def test_extremities_of_equal_shapes_match_themselves(probes):
-    one = probes[0]
+def test_extremities_of_equal_shapes_match_themselves(shape_samples):
+    one = shape_samples[0]
     first = similar_matches(one, one)[0]
     assert np.array_equal(first.source, first.target)
     assert len(first.source) == len(one.extremities.points)
@@ -145,14 +145,14 @@ def test_extremities_of_equal_shapes_match_themselves(probes):
 
 
 @pytest.mark.parametrize(("count", "sizes"), [(4, {4}), (5, {4, 5})])
-def test_of_five_extremities_one_may_be_left_out(probes, count, sizes):
-    one, ends = probes[0], probes[0].extremities
+def test_of_five_extremities_one_may_be_left_out(shape_samples, count, sizes):
+    one, ends = shape_samples[0], shape_samples[0].extremities
     few = replace(ends, points=ends.points[:count], mean_distance=ends.mean_distance[:count])
     assert {len(m.source) for m in similar_matches(*[replace(one, extremities=few)] * 2)} == sizes
 
 
-def test_distances_between_extremities_alone_match_them(probes):
-    one = probes[0]
+def test_distances_between_extremities_alone_match_them(shape_samples):
+    one = shape_samples[0]
     plain = replace(
         one,
         heat=np.zeros_like(one.heat),
@@ -166,8 +166,8 @@ def test_distances_between_extremities_alone_match_them(probes):
     assert np.array_equal(order[first.target], first.source)
 
 
-def test_shapes_without_extremities_are_not_matched_by_them(probes):
-    one = probes[0]
+def test_shapes_without_extremities_are_not_matched_by_them(shape_samples):
+    one = shape_samples[0]
     bare = replace(one, extremities=one.extremities.removed())
     assert match_extremities(one, bare, None) == []
     assert match_of_map(np.arange(len(one.positions)), bare, one) is None
@@ -198,8 +198,10 @@ def test_each_map_may_have_evidence_of_its_own(on):
     cost = on.coarse.matching_cost(4.0, 0.0, 30.0, pairs)
     assert cost.shape == (3, len(on.coarse.target.positions), len(on.coarse.source.positions))
     together = batched_zoomout(maps, *bases, (10, 20, 30), cost)
-    for i, pairing in enumerate(pairs):
-        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.coarse.matching_cost(4.0, 0.0, 30.0, [pairing]))
+    for i, extremity_match in enumerate(pairs):
+        alone = batched_zoomout(
+            maps[:1], *bases, (10, 20, 30), on.coarse.matching_cost(4.0, 0.0, 30.0, [extremity_match])
+        )
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
     speaks: Any = on.coarse.matching_cost(0.0, 0.0, 2.0, pairs[:1])
@@ -216,8 +218,8 @@ def test_a_shape_deforms_least_onto_itself(itself):
     assert kept.strain < torn.strain < np.log(torn.energy)
 
 
-def test_limbs_of_different_lengths_leave_no_symmetry(probes):
-    assert find_self_maps(subsample(probes[1], 400), 100) == []
+def test_limbs_of_different_lengths_leave_no_symmetry(shape_samples):
+    assert find_self_maps(subsample(shape_samples[1], 400), 100) == []
 
 
 def test_coarse_proxies_have_no_unreferenced_vertices(creature):
@@ -247,11 +249,11 @@ def test_a_candidate_that_deforms_less_comes_first_and_one_not_registered_never(
     assert equal[0].score < equal[1].score
 
 
-def test_samples_of_a_mirror_image_have_the_opposite_orientation(probes):
-    turned: Any = mirror_samples(probes[0])
+def test_samples_of_a_mirror_image_have_the_opposite_orientation(shape_samples):
+    turned: Any = mirror_samples(shape_samples[0])
     assert turned.mirrored
-    assert np.array_equal(turned.extremities.gradient_cross, -probes[0].extremities.gradient_cross)
-    assert turned.proxy.mesh.vertices[:, 0] == pytest.approx(-probes[0].proxy.mesh.vertices[:, 0])
+    assert np.array_equal(turned.extremities.gradient_cross, -shape_samples[0].extremities.gradient_cross)
+    assert turned.proxy.mesh.vertices[:, 0] == pytest.approx(-shape_samples[0].proxy.mesh.vertices[:, 0])
 
 
 def test_extremities_can_be_left_out(creature):
@@ -273,11 +275,13 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     assert kept.verdict != "sure"
 
 
-def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, probes, monkeypatch):
+def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, shape_samples, monkeypatch):
     """The other direction is believed then; only a map of which both fail has the most."""
 
     def energy() -> float:  # a pair keeps what it has found
-        return deform(SIGNS, proxy_pair(creature[0], creature[0], (probes[0].proxy, probes[0].proxy))).energy
+        return deform(
+            SIGNS, proxy_pair(creature[0], creature[0], (shape_samples[0].proxy, shape_samples[0].proxy))
+        ).energy
 
     usual, fit = energy(), NonRigid.register_vertices
     failing = [True, False]

@@ -46,10 +46,10 @@ def test_all_faces_of_a_closed_surface_are_made_to_look_outward(sphere, rng, sha
 
 def test_a_surface_that_is_nearly_closed_is_turned_outward(sphere):
     height = sphere.vertices[sphere.faces, 2].max(axis=1)
-    for below, told in ((0.9, True), (0.0, False)):  # a small hole, and half a sphere
+    for below, output in ((0.9, True), (0.0, False)):  # a small hole, and half a sphere
         part = Mesh(sphere.vertices, sphere.faces[height < below])
         assert not inward_faces(part).any()
-        assert (inward_faces(inside_out(part)) == told).all()
+        assert (inward_faces(inside_out(part)) == output).all()
 
 
 def test_the_volume_of_an_open_box_is_that_of_the_box():

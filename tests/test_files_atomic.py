@@ -99,8 +99,8 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
         ("a\0.txt", "null"),
     ],
 )
-def test_places_that_cannot_be_written(tmp_path: Path, name: str, told: str) -> None:
-    with pytest.raises(InvalidInput, match=told), atomic_output(tmp_path / name, force=True) as temporary:
+def test_places_that_cannot_be_written(tmp_path: Path, name: str, output: str) -> None:
+    with pytest.raises(InvalidInput, match=output), atomic_output(tmp_path / name, force=True) as temporary:
         temporary.write_text("x")
     assert not list(tmp_path.iterdir())
     assert Path("/dev/null").is_char_device()

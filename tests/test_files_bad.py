@@ -17,10 +17,10 @@ OFF = format_off(MeshFile(MESH))
 
 
 def refused(path: Path, content: bytes | None = None) -> str:
-    told = refusal(read_mesh, path, content)
-    assert path.name in told
-    assert "got" in told
-    return told
+    output = refusal(read_mesh, path, content)
+    assert path.name in output
+    assert "got" in output
+    return output
 
 
 def test_what_is_no_file(tmp_path: Path) -> None:

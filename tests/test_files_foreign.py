@@ -201,9 +201,9 @@ def test_gltf_of_more_copies_than_anybody_means_is_refused(
 ) -> None:
     """Nodes may show a mesh as often as they like; the file is refused before any copy is made."""
     monkeypatch.setattr("kfmaps.io.gltf._Scene.numbers", lambda *_: pytest.fail("numbers were read"))
-    told = refused(tmp_path / "a.gltf", copies(vertices, parts, nodes))
-    assert "at most 4,000,000 vertices and corners that nodes repeat" in told
-    assert "Export each shape once" in told
+    output = refused(tmp_path / "a.gltf", copies(vertices, parts, nodes))
+    assert "at most 4,000,000 vertices and corners that nodes repeat" in output
+    assert "Export each shape once" in output
 
 
 def test_gltf_that_does_not_fit_into_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

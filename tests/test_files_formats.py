@@ -258,9 +258,9 @@ def test_oddities_warn_and_are_kept(tmp_path: Path) -> None:
     mesh = blob(60)
     torn = Mesh(np.vstack([mesh.vertices, mesh.vertices[:1]]), np.vstack([mesh.faces[:-1], [[4, 4, 5]]]))
     write_mesh(tmp_path / "a.off", torn)
-    with pytest.warns(KfmapsWarning) as told:
+    with pytest.warns(KfmapsWarning) as output:
         same(MeshFile(read_mesh(tmp_path / "a.off")), torn.vertices, torn.faces.tolist())
-    text = "\n".join(str(w.message) for w in told)
+    text = "\n".join(str(w.message) for w in output)
     for part in ("1 boundary loop,", "1 duplicated vertex", "1 faces without area", "1 vertices that no face uses"):
         assert part in text
 
@@ -274,9 +274,9 @@ def test_oddities_warn_and_are_kept(tmp_path: Path) -> None:
         (np.random.default_rng(0).normal(size=(4, 3)), [[0, 1, 2], [0, 1, 3]], "1 inconsistently oriented edge"),
     ],
 )
-def test_each_oddity_is_named(tmp_path: Path, places: np.ndarray, faces: list, told: str) -> None:
+def test_each_oddity_is_named(tmp_path: Path, places: np.ndarray, faces: list, output: str) -> None:
     write_mesh(tmp_path / "a.ply", Mesh(places, np.array(faces)))
-    with pytest.warns(KfmapsWarning, match=told):
+    with pytest.warns(KfmapsWarning, match=output):
         assert len(read_mesh(tmp_path / "a.ply").faces) == len(faces)
 
 

@@ -324,9 +324,9 @@ def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any
         scipy.io.savemat(file, content, oned_as="column")
     if suffix == ".mat" and "got" in part and "shape" in part and "(3,)" not in part:
         part = part.partition(", got")[0]
-    told = refused(tmp_path / f"m{suffix}", file.getvalue())
-    assert part in told
-    assert len(told) < 400
+    output = refused(tmp_path / f"m{suffix}", file.getvalue())
+    assert part in output
+    assert len(output) < 400
 
 
 def test_a_summary_cannot_give_what_only_an_array_may(tmp_path: Path) -> None:
@@ -370,10 +370,10 @@ def test_sizes_are_looked_at_before_memory_is_taken(
     content = packed(*sizes)
     assert len(content) < 1 << 17
     tracemalloc.start()
-    told = refused(tmp_path / f"m{suffix}", content)
+    output = refused(tmp_path / f"m{suffix}", content)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert "at most 8.39 MB unpacked" in told
+    assert "at most 8.39 MB unpacked" in output
     assert most < 32 << 20
 
 

@@ -232,8 +232,8 @@ def test_one_long_label_does_not_take_its_room_for_all(tmp_path: Path, suffix: s
     """An array of texts gives each the room of the longest: a file of a megabyte would take gigabytes."""
     path = tmp_path / f"a{suffix}"
     path.write_text("arm\n" * 1000 + "x" * 100_000 + "\n")
-    told = r"labels of at most 67,041 letters each, for there are 1,001, got one of 100,000 letters \('xxx"
-    with pytest.raises(InvalidInput, match=told):
+    output = r"labels of at most 67,041 letters each, for there are 1,001, got one of 100,000 letters \('xxx"
+    with pytest.raises(InvalidInput, match=output):
         read_values(path)
     path.write_text("arm\n" * 1000 + "x" * 1000 + "\n")
     assert read_values(path).array[1000] == "x" * 1000

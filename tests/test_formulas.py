@@ -58,14 +58,14 @@ def split(basis: Basis, rows: np.ndarray, parts: int) -> tuple[Basis, np.ndarray
 # The kernel.
 
 
-@pytest.mark.parametrize("sharpness", [0.3, 1.0, 5.0])
-def test_a_typical_pair_has_the_same_value_in_both_kernels_of_distance(sharpness, rng):
+@pytest.mark.parametrize("bandwidth_scale", [0.3, 1.0, 5.0])
+def test_a_typical_pair_has_the_same_value_in_both_kernels_of_distance(bandwidth_scale, rng):
     """Of the median distance the Gaussian makes exp(−s), the Laplacian exp(−√s)."""
     X = rng.normal(size=(31, 5)) * 7
     squares = np.median(_squared_distances(X, X)[np.triu_indices(31, 1)])
     pair = np.array([[0.0] * 5, [np.sqrt(squares)] + [0.0] * 4])
-    for kind, exponent in ((Gaussian(), sharpness), (Laplacian(), np.sqrt(sharpness))):
-        kernel: Any = resolve_kernel(kind, X, sharpness)
+    for kind, exponent in ((Gaussian(), bandwidth_scale), (Laplacian(), np.sqrt(bandwidth_scale))):
+        kernel: Any = resolve_kernel(kind, X, bandwidth_scale)
         assert kernel(pair[:1], pair[1:])[0, 0] == pytest.approx(np.exp(-exponent))
 
 
@@ -203,15 +203,15 @@ def test_heat_is_all_there_and_decays_as_each_function_does(rng):
 
 def test_what_comes_from_a_landmark_is_the_signature_there_and_goes_both_ways(rng):
     basis, energies = random_basis(60, 9, rng), np.array([0.1, 0.7, 1.2])
-    marks = np.array([4, 50, 7])
+    landmarks = np.array([4, 50, 7])
     for map_of, signature in (
-        (heat_map(basis, marks, energies), heat_signature(basis, energies)),
-        (wave_map(basis, marks, energies, 0.5), wave_signature(basis, energies, 0.5)),
+        (heat_map(basis, landmarks, energies), heat_signature(basis, energies)),
+        (wave_map(basis, landmarks, energies, 0.5), wave_signature(basis, energies, 0.5)),
     ):
         values = map_of.reshape(60, 3, 3)  # vertex, landmark, time or energy
-        for j, mark in enumerate(marks):
+        for j, mark in enumerate(landmarks):
             np.testing.assert_allclose(values[mark, j], signature[mark])
-        np.testing.assert_allclose(values[marks], values[marks].transpose(1, 0, 2))
+        np.testing.assert_allclose(values[landmarks], values[landmarks].transpose(1, 0, 2))
 
 
 def test_descriptors_of_random_vertices_differ_by_two(rng):
@@ -319,8 +319,8 @@ def test_zoomout_starts_from_the_low_part_of_the_map(small_basis, rng):
 def test_guidance_has_its_weight_on_a_shape_of_any_size(area, rng):
     """Squared differences of functions are in 1/area; those of the descriptors beside them are too."""
     source, target = (replace(b, mass=area * b.mass / b.mass.sum()) for b in [random_basis(60, 4, rng)] * 2)
-    led: Any = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
-    both = np.concatenate(led.embedding_columns(12.0, source, target))
+    guided: Any = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
+    both = np.concatenate(guided.embedding_columns(12.0, source, target))
     assert _squared_distances(both, both).mean() * area == pytest.approx(12)
 
 

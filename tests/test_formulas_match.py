@@ -60,9 +60,9 @@ def test_shot_counts_as_its_weight_says_in_squared_distances(shape, other, weigh
     found = pair_descriptors(shape, other, (shape.basis, other.basis), config, NO_LANDMARKS, None)
     mass = [s.basis.mass / s.basis.mass.sum() / 2 for s in (shape, other)]
     both, area = np.concatenate([found.source, found.target]), np.concatenate(mass)
-    told = np.mean(np.ptp(both[:, 12:], axis=0) > 0)
-    assert told > 0.2
-    for columns, expected in ((slice(None, 12), 2), (slice(12, None), 2 * weight * told)):
+    output = np.mean(np.ptp(both[:, 12:], axis=0) > 0)
+    assert output > 0.2
+    for columns, expected in ((slice(None, 12), 2), (slice(12, None), 2 * weight * output)):
         assert area @ _squared_distances(both[:, columns], both[:, columns]) @ area == pytest.approx(expected, rel=1e-6)
 
 
@@ -170,9 +170,9 @@ def test_coverage_is_that_of_the_direction_that_covers_less(shape):
 
 def test_heat_around_a_landmark_is_that_of_its_time(shape):
     """Between two landmarks: what is left after twice the time is the heat kernel's, normalised."""
-    marks = np.array([3, 90])
-    found = heat_features(shape.basis, shape.basis, marks)
-    heat = heat_map(shape.basis, marks, np.array(_HEAT_TIMES)).reshape(500, 2, len(_HEAT_TIMES))
+    landmarks = np.array([3, 90])
+    found = heat_features(shape.basis, shape.basis, landmarks)
+    heat = heat_map(shape.basis, landmarks, np.array(_HEAT_TIMES)).reshape(500, 2, len(_HEAT_TIMES))
     for i, time in enumerate(_HEAT_TIMES):
         own = heat_signature(shape.basis, np.array([time]))[:, 0]
         np.testing.assert_allclose(found[0, :, i], heat[:, 0, i] / np.sqrt(own[3] * own), rtol=1e-8, atol=1e-12)

@@ -256,9 +256,9 @@ def test_objective_falls_whatever_is_combined(case, constraint):
 def test_no_step_follows_one_that_gains_little(numbers):
     *_, E = numbers
     objective = Objective(E, {"sparsity": (0.3, sparse_penalty(E.rhs(), 0.1))})
-    how = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=50, rtol=0.0)
-    two, all_of_them = (minimize(objective, replace(how, max_outer_iter=most)) for most in (2, 50))
-    greedy, usual = (minimize(objective, replace(how, rtol=rtol)) for rtol in (1.0, 1e-4))
+    options = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=50, rtol=0.0)
+    two, all_of_them = (minimize(objective, replace(options, max_outer_iter=most)) for most in (2, 50))
+    greedy, usual = (minimize(objective, replace(options, rtol=rtol)) for rtol in (1.0, 1e-4))
     assert greedy.steps == two.steps <= usual.steps < all_of_them.steps
     assert objective.value(usual.value) == pytest.approx(objective.value(all_of_them.value), rel=1e-2)
 
@@ -277,12 +277,12 @@ def test_stationary_without_constraint(numbers):
 
 def test_nothing_extra_is_the_linear_solve_to_the_last_digit(case):
     *_, E = case
-    how = MinimizeOptions(CG(rtol=1e-8), "none")
+    options = MinimizeOptions(CG(rtol=1e-8), "none")
     np.testing.assert_array_equal(
-        to_numpy(minimize(Objective(E), how).value), to_numpy(solve(E.apply, E.rhs(), how.solver).value)
+        to_numpy(minimize(Objective(E), options).value), to_numpy(solve(E.apply, E.rhs(), options.solver).value)
     )
-    pair = fit_bidirectional(Objective(E), Objective(E), 0.0, 0.0, how)
-    np.testing.assert_array_equal(to_numpy(pair.forth.value), to_numpy(minimize(Objective(E), how).value))
+    pair = fit_bidirectional(Objective(E), Objective(E), 0.0, 0.0, options)
+    np.testing.assert_array_equal(to_numpy(pair.forth.value), to_numpy(minimize(Objective(E), options).value))
 
 
 def reverse(case):
@@ -292,8 +292,8 @@ def reverse(case):
 
 def test_swapping_source_and_target_swaps_the_two_maps(numbers):
     forth, back = Objective(numbers[-1]), Objective(reverse(numbers))
-    how = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=200, rtol=1e-9)
-    one, other = (fit_bidirectional(*order, 0.2, 0.2, how) for order in ((forth, back), (back, forth)))
+    options = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=200, rtol=1e-9)
+    one, other = (fit_bidirectional(*order, 0.2, 0.2, options) for order in ((forth, back), (back, forth)))
     assert (np.diff(one.history) <= 1e-9 * one.history[0]).all()
     assert one.history[-1] == pytest.approx(other.history[-1], rel=1e-6)
     np.testing.assert_allclose(one.forth.value, other.back.value, atol=1e-2)
@@ -422,14 +422,14 @@ def test_transport_is_what_it_minimises(asarray, blur):
         sides = divergence(p.sum(axis=1), a) + divergence(p.sum(axis=0), b)
         return (p * c).sum() + blur * divergence(p, a[:, None] * b) + 10 * blur * sides
 
-    found, told = _transport(asarray(c), asarray(a), asarray(b), blur)
+    found, output = _transport(asarray(c), asarray(a), asarray(b), blur)
     plan = to_numpy(found)
-    assert told == pytest.approx(whole(plan), rel=1e-6)
+    assert output == pytest.approx(whole(plan), rel=1e-6)
     for _ in range(5):
-        assert whole(plan * np.exp(0.05 * rng.normal(size=plan.shape))) > told
+        assert whole(plan * np.exp(0.05 * rng.normal(size=plan.shape))) > output
     turned, same = _transport(asarray(c.T), asarray(b), asarray(a), blur)
     np.testing.assert_allclose(to_numpy(turned).T, plan, atol=1e-5 * plan.max())
-    assert same == pytest.approx(told, rel=1e-6)
+    assert same == pytest.approx(output, rel=1e-6)
 
 
 def test_the_majorizer_of_transport_is_the_cost_of_its_plan(numbers):

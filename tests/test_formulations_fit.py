@@ -57,7 +57,7 @@ def pairs(truth, rows):
 
 
 @pytest.fixture(scope="module")
-def marks(truth):
+def landmark_vertices(truth):
     return pairs(truth, np.array([5, 60, 120, 180, 230]))
 
 
@@ -79,14 +79,14 @@ FORMS = {
     ("name", "form"),
     [*((name, form) for name in FORMULATIONS for form in ("torch", "full")), *(("all", form) for form in FORMS)],
 )
-def test_every_formulation_with_every_form_of_the_kernel(shape, other, marks, truth, name, form):
+def test_every_formulation_with_every_form_of_the_kernel(shape, other, landmark_vertices, truth, name, form):
     if form == "torch":
         pytest.importorskip("torch")
     if form == "full" and FORMULATIONS[name].weighs_features:
         with pytest.raises(InvalidInput, match="loss per feature"):
             with_(name, **FORMS[form])
         return
-    found = match(shape, other, with_(name, **FORMS[form]), landmarks=marks)
+    found = match(shape, other, with_(name, **FORMS[form]), landmarks=landmark_vertices)
     assert (found.functional_map_back is not None) == (FORMULATIONS[name].bidirectional)
     if FORMULATIONS[name].constraint == "orthogonal":
         np.testing.assert_allclose(found.functional_map.T @ found.functional_map, np.eye(12), atol=1e-8)
@@ -94,16 +94,16 @@ def test_every_formulation_with_every_form_of_the_kernel(shape, other, marks, tr
 
 
 @pytest.mark.parametrize("name", FORMULATIONS)
-def test_equal_shapes_give_the_identity(shape, marks, name):
-    same = np.stack([marks[:, 0], marks[:, 0]], axis=1)
+def test_equal_shapes_give_the_identity(shape, landmark_vertices, name):
+    same = np.stack([landmark_vertices[:, 0], landmark_vertices[:, 0]], axis=1)
     found = match(shape, shape, with_(name), landmarks=same)
     assert (found.target_to_source == np.arange(300)).mean() > 0.95
     if found.source_to_target is not None:
         assert (found.source_to_target == np.arange(300)).mean() > 0.95
 
 
-def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, marks):
-    plain = fit(shape, other, SMALL, landmarks=marks).functional_map
+def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, landmark_vertices):
+    plain = fit(shape, other, SMALL, landmarks=landmark_vertices).functional_map
     nothing = Formulation(
         loss="squared",
         loss_group="feature",
@@ -114,34 +114,34 @@ def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, marks)
         transport_blur=3.0,
     )
     np.testing.assert_array_equal(
-        fit(shape, other, replace(SMALL, formulation=nothing), landmarks=marks).functional_map, plain
+        fit(shape, other, replace(SMALL, formulation=nothing), landmarks=landmark_vertices).functional_map, plain
     )
 
 
-def test_weak_formulations_come_close_to_least_squares(shape, other, marks):
+def test_weak_formulations_come_close_to_least_squares(shape, other, landmark_vertices):
     config = replace(SMALL, solver=CG(rtol=1e-10, max_iter=2000), kernel=Gaussian(1.0))
-    plain = fit(shape, other, config, landmarks=marks).functional_map
+    plain = fit(shape, other, config, landmarks=landmark_vertices).functional_map
     for weak in (
         Formulation(sparsity=1e-9),
         Formulation(transport_weight=1e-9),
         Formulation(bidirectional=True, inverse_weight=1e-9, adjoint_weight=1e-9),
         Formulation(loss="huber", loss_group="feature", loss_scale=1e9),
     ):
-        found = fit(shape, other, replace(config, formulation=weak), landmarks=marks).functional_map
+        found = fit(shape, other, replace(config, formulation=weak), landmarks=landmark_vertices).functional_map
         np.testing.assert_allclose(found, plain, atol=1e-5)
 
 
-def test_swapping_the_shapes_swaps_both_maps(shape, other, marks):
+def test_swapping_the_shapes_swaps_both_maps(shape, other, landmark_vertices):
     config = with_("both", refinement=ZoomOut(8, 30, 4), kernel=Linear())
-    forth: Any = match(shape, other, config, landmarks=marks)
-    back = match(other, shape, config, landmarks=marks[:, ::-1])
+    forth: Any = match(shape, other, config, landmarks=landmark_vertices)
+    back = match(other, shape, config, landmarks=landmark_vertices[:, ::-1])
     assert (forth.source_to_target == back.target_to_source).mean() > 0.9
     assert forth.source_to_target.shape == (300,)
     np.testing.assert_allclose(forth.functional_map_back, forth.functional_map.T, atol=1e-12)
 
 
-def test_both_maps_are_saved(shape, other, marks, tmp_path):
-    found = match(shape, other, with_("both"), landmarks=marks)
+def test_both_maps_are_saved(shape, other, landmark_vertices, tmp_path):
+    found = match(shape, other, with_("both"), landmarks=landmark_vertices)
     for name in ("map.npz", "map.mat"):
         save_map(tmp_path / name, found)
         again = load_map(tmp_path / name)
@@ -149,7 +149,7 @@ def test_both_maps_are_saved(shape, other, marks, tmp_path):
         np.testing.assert_array_equal(again.functional_map_back, found.functional_map_back)
 
 
-def test_both_directions_agree_more_than_one_at_a_time(shape, other, marks):
+def test_both_directions_agree_more_than_one_at_a_time(shape, other, landmark_vertices):
     def cycle(forth, back):
         there = geodesic_errors(shape.mesh, forth[back], np.arange(300)).mean()
         return there + geodesic_errors(other.mesh, back[forth], np.arange(260)).mean()
@@ -158,9 +158,9 @@ def test_both_directions_agree_more_than_one_at_a_time(shape, other, marks):
         config = replace(SMALL, refinement=refinement)
         apart = [
             match(*order, config, landmarks=m)
-            for order, m in (((shape, other), marks), ((other, shape), marks[:, ::-1]))
+            for order, m in (((shape, other), landmark_vertices), ((other, shape), landmark_vertices[:, ::-1]))
         ]
-        tied = match(shape, other, replace(config, formulation=FORMULATIONS["both"]), landmarks=marks)
+        tied = match(shape, other, replace(config, formulation=FORMULATIONS["both"]), landmarks=landmark_vertices)
         free = cycle(apart[0].target_to_source, apart[1].target_to_source)
         assert cycle(tied.target_to_source, tied.source_to_target) <= 1.05 * free
 
@@ -168,10 +168,10 @@ def test_both_directions_agree_more_than_one_at_a_time(shape, other, marks):
 @pytest.mark.parametrize("kernel", [Linear(), Gaussian()], ids=["linear", "gaussian"])
 def test_wrong_landmarks_are_found_out(shape, other, truth, kernel):
     rows = np.unique(truth, return_index=True)[1][3::9][:20]
-    marks = pairs(truth, rows)
-    wrong = marks.copy()
+    landmark_vertices = pairs(truth, rows)
+    wrong = landmark_vertices.copy()
     bad = np.array([2, 5, 8, 11, 14, 17])
-    wrong[bad, 0] = marks[np.roll(bad, 1), 0]
+    wrong[bad, 0] = landmark_vertices[np.roll(bad, 1), 0]
     config = replace(SMALL, kernel=kernel, descriptors=replace(SMALL.descriptors, n_spectral=60))
     robust = replace(config, formulation=Formulation(loss="geman"))
     weights: Any = fit(shape, other, robust, landmarks=wrong).weights
@@ -182,7 +182,7 @@ def test_wrong_landmarks_are_found_out(shape, other, truth, kernel):
         points = match(shape, other, config, landmarks=landmarks).target_to_source
         return geodesic_errors(shape.mesh, points, truth).mean()
 
-    assert error(robust, wrong) < 1.3 * error(robust, marks)
+    assert error(robust, wrong) < 1.3 * error(robust, landmark_vertices)
     assert error(robust, wrong) < error(config, wrong)
 
 
@@ -204,14 +204,14 @@ def test_loss_per_landmark_needs_landmarks(shape, other):
         fit(shape, other, with_("robust landmarks"))
 
 
-def test_every_layout_knows_its_landmarks(shape, other, marks):
+def test_every_layout_knows_its_landmarks(shape, other, landmark_vertices):
     for more in (
         {"energy_sampling": "every-nth"},
         {"signature": "none"},
         {"landmark_descriptor": "heat", "n_spectral": 31},
     ):
         config = with_("robust landmarks", descriptors=replace(SMALL.descriptors, **{"n_spectral": 60, **more}))
-        found: Any = fit(shape, other, config, landmarks=marks)
+        found: Any = fit(shape, other, config, landmarks=landmark_vertices)
         assert found.weights.shape == (5,)
 
 
@@ -229,8 +229,8 @@ def test_a_search_fits_in_any_formulation(shape, other):
     assert found.source_to_target.shape == (300,)
 
 
-def test_functions_are_carried_beyond_the_basis(shape, other, truth, marks):
-    found = match(shape, other, replace(SMALL, refinement=ZoomOut(8, 30, 4)), landmarks=marks)
+def test_functions_are_carried_beyond_the_basis(shape, other, truth, landmark_vertices):
+    found = match(shape, other, replace(SMALL, refinement=ZoomOut(8, 30, 4)), landmarks=landmark_vertices)
     f = shape.mesh.vertices
     better, alone = found.transfer(f, 12), found.transfer(f, 0)
     assert better.shape == (260, 3)

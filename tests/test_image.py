@@ -76,10 +76,10 @@ def test_the_script_for_slurm_runs(tmp_path: Path) -> None:
     program(programs / "srun", f'shift; shift; exec "$@" {listening}')
     program(programs / "dask", f'exec "{sys.executable}" -m dask "$@"')
     program(programs / "python", f'exec "{sys.executable}" "$@"')
-    told = (
+    output = (
         "import sys; from distributed import Client; c = Client(sys.argv[1]); c.wait_for_workers(1, 60); print('well')"
     )
-    program(programs / "kfmaps", f'echo "$@"; {sys.executable} -c "{told}" "${{@: -1}}"; exit 7')
+    program(programs / "kfmaps", f'echo "$@"; {sys.executable} -c "{output}" "${{@: -1}}"; exit 7')
     (tmp_path / "job.sh").write_text(block("bash"), encoding="utf-8")
     environment = os.environ | {"PATH": f"{programs}:{os.environ['PATH']}", "DIR": "shapes", "OUT": "out of it"}
     done = subprocess.run(

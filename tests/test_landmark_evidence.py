@@ -93,8 +93,8 @@ def test_a_map_is_supported_by_landmarks_that_did_not_guide_it(creatures, slid) 
         > 0.3
     )
     # With landmarks in it the refinement would keep to them.
-    led = rerefine([wrong], on)[0]
-    assert landmark_support(led.landmark_errors, on.landmark_evidence.distances, areas) > 0.3
+    guided = rerefine([wrong], on)[0]
+    assert landmark_support(guided.landmark_errors, on.landmark_evidence.distances, areas) > 0.3
     assert support_of_landmarks(wrong, on) < 1e-3
     assert support_of_landmarks(right, replace(on, landmark_cost=None, landmark_evidence=None)) == 0.0
 
@@ -130,17 +130,17 @@ def test_proxies_have_the_vertices_nearest_to_landmarks(creatures) -> None:
     at = spread_out(creatures, 30)
     a, b = copies(creatures, 500, 400)
     on = proxy_pair(source, target, (a, b))
-    marks = on.nearest(at)
+    landmark_vertices = on.nearest(at)
     for side, (shape, copy) in enumerate(((source, a), (target, b))):
         off = np.linalg.norm(copy.mesh.vertices - shape.mesh.vertices[at[:, side]][:, None], axis=2)
-        chosen = off[np.arange(30), marks[:, side]]
+        chosen = off[np.arange(30), landmark_vertices[:, side]]
         np.testing.assert_array_equal(chosen, off.min(axis=1))
         assert 0 < chosen.max() < 0.1
     image = proxy_pair(source, mirror_image(target), (a, b.mirrored()))
-    np.testing.assert_array_equal(image.nearest(at), marks)
-    there = image.proxies[1].mesh.vertices[marks[:, 1]]
+    np.testing.assert_array_equal(image.nearest(at), landmark_vertices)
+    there = image.proxies[1].mesh.vertices[landmark_vertices[:, 1]]
     assert np.linalg.norm(there - target.mesh.vertices[at[:, 1]] * MIRROR, axis=1).max() < 0.1
-    np.testing.assert_array_equal(on.swapped().nearest(at[:, ::-1]), marks[:, ::-1])
+    np.testing.assert_array_equal(on.swapped().nearest(at[:, ::-1]), landmark_vertices[:, ::-1])
     assert on.nearest(at[:0]).shape == (0, 2)
 
 
@@ -154,8 +154,8 @@ def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None
     off = []
     for landmarks in (at[:0], at):
         *_, made = alternating_registration(slid, on, None, landmarks)
-        bent = made.registered_vertices
-        off.append(np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1))
+        registered = made.registered_vertices
+        off.append(np.linalg.norm(registered[truth] - target.mesh.vertices, axis=1))
     assert off[1][rows].mean() < 0.6 * off[0][rows].mean()
     assert off[1].mean() < off[0].mean()
 
@@ -165,8 +165,8 @@ def followed(off: float, fit: NonRigid) -> float:
     body = unit_area(blob(250))
     from_there = np.linalg.norm(body.vertices - body.vertices[3], axis=1)
     to = np.abs(from_there - off).argmin()
-    bent = fit(body, body, np.arange(250), landmarks=np.array([[3, to]])).vertices
-    return 1 - float(np.linalg.norm(bent[3] - body.vertices[to]) / from_there[to])
+    registered = fit(body, body, np.arange(250), landmarks=np.array([[3, to]])).vertices
+    return 1 - float(np.linalg.norm(registered[3] - body.vertices[to]) / from_there[to])
 
 
 def test_locally_scaled_limbs_follow_landmarks_that_are_far_off(monkeypatch) -> None:
@@ -203,15 +203,15 @@ def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
 def test_landmarks_guide_by_their_weight(creatures, lead) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 3)
-    guides: Any = [build_guidance(source, target, some, None, None, lead) for some in (at[:0], at)]
-    plain, led, whole = *guides, build_guidance(source, target, at)
+    guidances: Any = [build_guidance(source, target, some, None, None, lead) for some in (at[:0], at)]
+    plain, guided, whole = *guidances, build_guidance(source, target, at)
     k = plain.source.shape[1]
     for side in ("source", "target"):
-        own, most = getattr(led, side), getattr(whole, side)
+        own, most = getattr(guided, side), getattr(whole, side)
         np.testing.assert_allclose(own[:, :k], getattr(plain, side))
         np.testing.assert_allclose(own[:, k:], np.sqrt(lead / LANDMARK_WEIGHT) * most[:, k:])
         if lead == LANDMARK_WEIGHT:
-            both = np.vstack([led.source[:, k:], led.target[:, k:]])
+            both = np.vstack([guided.source[:, k:], guided.target[:, k:]])
             assert 2 * ((both - both.mean(axis=0)) ** 2).sum(axis=1).mean() == pytest.approx(LANDMARK_WEIGHT)
 
 
@@ -231,25 +231,25 @@ def test_a_repaired_map_keeps_to_landmarks(creatures, creature_pair, monkeypatch
     monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
     ranked = [replace(creature_pair.right, deformation_energy=1.0)]
     at = spread_out(creatures, 4)
-    begun, leads, usual = [], [], registration_refine.build_guidance
+    start, leads, usual = [], [], registration_refine.build_guidance
 
     def lead(*what: Any) -> Any:
         leads.append((what[2], what[5]))
         return usual(*what)
 
     def made(C: np.ndarray, where: Any, _led: Any, landmarks: np.ndarray) -> Iterator[AlternatingResult]:
-        begun.append(landmarks.T)
+        start.append(landmarks.T)
         yield AlternatingResult(C, where.source.mesh.vertices)
 
     monkeypatch.setattr(registration_refine, "build_guidance", lead)
     monkeypatch.setattr(registration_refine, "alternating_registration", made)
     way: Any = registration_refine.refine_by_registration(ranked, creature_pair.fine, creature_pair.proxies, at)[1][0]
     way.make()
-    (t, s), (s_again, t_again) = begun
+    (t, s), (s_again, t_again) = start
     for there, here in ((s, t), (s_again, t_again)):
         np.testing.assert_array_equal(np.stack([there, here], axis=1), at)
     assert [weight for _, weight in leads] == [LANDMARK_WEIGHT_UNLIKE, LANDMARK_WEIGHT_UNLIKE]
-    assert all(np.array_equal(told, at) for told, _ in leads)
+    assert all(np.array_equal(output, at) for output, _ in leads)
 
 
 def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> None:

@@ -81,12 +81,12 @@ def test_slicer_json(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("space", "told"), [("0", "RAS"), ("1", "LPS"), ("LPS", "LPS"), ("RAS", "RAS"), (None, "RAS")])
-def test_slicer_fcsv(tmp_path: Path, space: str | None, told: str) -> None:
+def test_slicer_fcsv(tmp_path: Path, space: str | None, output: str) -> None:
     head = "# Markups fiducial file version = 4.11\n" + (f"# CoordinateSystem = {space}\n" if space else "")
     columns = "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"
     rows = 'n_0,1,2.5,-3,0,0,0,1,1,1,0,"A, left",,\nn_1,4,5,6,0,0,0,1,1,1,0,F-2,,n\n'
     (read,) = read_landmark_sets(touch(tmp_path / "f.fcsv", head + columns + rows))
-    assert (read.names, read.space) == (("A, left", "F-2"), told)
+    assert (read.names, read.space) == (("A, left", "F-2"), output)
     np.testing.assert_array_equal(read.points, [[1, 2.5, -3], [4, 5, 6]])
 
 
@@ -155,8 +155,8 @@ def test_wide_tables_have_titles_that_r_takes(tmp_path: Path) -> None:
         ("a.mrk.json", '{"markups": []}', "landmarks"),
     ],
 )
-def test_damaged_files_are_refused_in_words(tmp_path: Path, name: str, text: str, told: str) -> None:
-    with pytest.raises(InvalidInput, match=told):
+def test_damaged_files_are_refused_in_words(tmp_path: Path, name: str, text: str, output: str) -> None:
+    with pytest.raises(InvalidInput, match=output):
         read_landmark_sets(touch(tmp_path / name, text))
 
 
@@ -221,9 +221,9 @@ def test_coordinate_systems_are_brought_together() -> None:
         ([1, 2, 3], "Check that they belong to this mesh"),
     ],
 )
-def test_landmarks_far_away_say_what_is_wrong(change: list[float], told: str) -> None:
+def test_landmarks_far_away_say_what_is_wrong(change: list[float], output: str) -> None:
     mesh = shifted()
-    with pytest.raises(InvalidInput, match=told):
+    with pytest.raises(InvalidInput, match=output):
         place_landmarks(LandmarkSet(on(mesh).names, on(mesh).points * change), mesh, "l")
 
 
@@ -295,8 +295,8 @@ def test_curves_of_slicer_keep_their_type_and_name(tmp_path: Path) -> None:
     markups = json.loads(path.read_text())["markups"]
     assert [one["type"] for one in markups] == ["Fiducial", "Curve", "ClosedCurve"]
     assert [len(one["controlPoints"]) for one in markups] == [1, 3, 3]
-    told = [(one["description"], one["selected"]) for one in markups[1]["controlPoints"]]
-    assert told == [("", True), ("look", False), ("", True)]
+    output = [(one["description"], one["selected"]) for one in markups[1]["controlPoints"]]
+    assert output == [("", True), ("look", False), ("", True)]
     (read,) = read_landmark_sets(path)
     assert read.names == ("tip", "curvebrow_1", "curvebrow_2", "curvebrow_3", *CURVED[2:5])
     np.testing.assert_array_equal(read.points, points[[0, 5, 1, 6, 2, 3, 4]])

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from collecting import CONFIG, bent
+from collecting import CONFIG, registered
 from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.landmark_tables import read_corrections, read_study, write_study
@@ -106,8 +106,12 @@ def test_corrected_specimens_are_matched_again_with_what_was_corrected(tmp_path:
     scans = find_collection(tmp_path / "scans")
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "ab"], scans)
     point = read_mesh(scans.shapes["c"]).vertices[7]
-    told = (point, "corrected")
-    corrections = {"c": {"a": told, "e": told, "b": (np.full(3, np.nan), "corrected")}, "b": {"a": told}, "gone": {}}
+    output = (point, "corrected")
+    corrections = {
+        "c": {"a": output, "e": output, "b": (np.full(3, np.nan), "corrected")},
+        "b": {"a": output},
+        "gone": {},
+    }
     found = corrected_pairs(templates, scans, corrections, tmp_path / "corrected")
     assert list(found) == [Pair("a", "c"), Pair("b", "c")]  # none between templates, which test the landmarks
     sides = [read_landmark_sets(path)[0] for path in found[Pair("b", "c")]]
@@ -138,7 +142,7 @@ def test_the_command_keeps_corrections_and_fits_maps_to_them(tmp_path: Path) -> 
     scans = tmp_path / "scans"
     scans.mkdir()
     for i, name in enumerate("ab"):
-        write_mesh(scans / f"{name}.ply", Mesh(10 * bent(i, N).vertices, bent(i, N).faces))
+        write_mesh(scans / f"{name}.ply", Mesh(10 * registered(i, N).vertices, registered(i, N).faces))
     points = read_mesh(scans / "a.ply").vertices[AT]
     write_landmark_sets(tmp_path / "a.mrk.json", [LandmarkSet(LABELS, points, space="LPS")])
     words = ["landmarks", "transfer", scans, "--from", tmp_path / "a.mrk.json", "-o", tmp_path / "out", "-q"]

@@ -468,12 +468,12 @@ def test_a_refusal_is_heard(serve: Serve) -> None:
 
 
 def test_shapes_are_prepared_once_and_the_settings_are_used() -> None:
-    marks = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
+    landmark_vertices = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
     mesh = blob(300)
     config = replace(CONFIG, refinement=None)
     matcher = InteractiveMatcher((mesh, mesh), ("a", "b"), (Path("a.off"), Path("b.off")), config)
     stages: list[str] = []
-    for some in (marks, marks[:3]):
+    for some in (landmark_vertices, landmark_vertices[:3]):
         found = matcher(some, lambda stage, done: stages.append(stage) if done == 1 else None)
         np.testing.assert_array_equal(found.target_to_source, np.arange(300))
         np.testing.assert_array_equal(found.landmarks, some)

@@ -242,9 +242,9 @@ def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
     assert [row.split(",")[0] for row in rows[1:]] == list("bacd")
     assert "the name of a scan" in run(*words, *more, "--keep", "z").stderr
     (scans / "d.ply").write_text("ply\n")
-    told = run(*words, *more)
-    assert told.status == 1
-    assert "d does not fit the others: shape d could not be prepared" in told.stdout
+    output = run(*words, *more)
+    assert output.status == 1
+    assert "d does not fit the others: shape d could not be prepared" in output.stdout
 
 
 def test_a_picked_pair_of_meshes_needs_no_subcommand(scans: Path) -> None:

@@ -53,12 +53,12 @@ def test_shot_of_a_large_shape_counts_so_many_points_in_a_ball(monkeypatch, radi
     """A ball of radius r around a point of a sphere has π r² of its area."""
     sphere, asked = unit_area(fibonacci_sphere(1500)), []
 
-    def told(_mesh, _radius, *, samples, at, **_rest):
+    def spy(_mesh, _radius, *, samples, at, **_rest):
         asked.append(samples)
         return np.ones((len(at), 2))
 
     monkeypatch.setattr(fit_shape, "MAX_SHOT_VERTICES", 1000)
-    monkeypatch.setattr(fit_shape, "shot", told)
+    monkeypatch.setattr(fit_shape, "shot", spy)
     _local_descriptors(sphere, laplace_basis(sphere, 20), radius)
     assert asked == [pytest.approx(wanted, rel=0.03)]
 
@@ -211,12 +211,12 @@ def test_farthest_points_of_a_pool_are_rows_of_all(rng):
 
 def test_reduced_shapes_keep_landmarks_and_small_shapes(pair):
     source = pair[0]
-    marks = np.array([2500, 3, 77])
-    part = sample_shape(source, 500, marks)
-    np.testing.assert_array_equal(part.vertices[part.landmarks], marks)
+    landmark_vertices = np.array([2500, 3, 77])
+    part = sample_shape(source, 500, landmark_vertices)
+    np.testing.assert_array_equal(part.vertices[part.landmarks], landmark_vertices)
     np.testing.assert_array_equal(part.shape.mesh.vertices, source.mesh.vertices[part.vertices])
-    assert sample_shape(source, 3000, marks).shape is source
-    assert sample_shape(source, None, marks).shape is source
+    assert sample_shape(source, 3000, landmark_vertices).shape is source
+    assert sample_shape(source, None, landmark_vertices).shape is source
 
 
 @pytest.mark.parametrize("orientation", [0.0, 0.5])

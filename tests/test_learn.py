@@ -64,9 +64,9 @@ def partners(a, b):
 
 def taught(shapes, a, b, config=CONFIG, landmarks=2, samples=40):
     known = partners(a, b)
-    marks = np.array([[known[v], v] for v in (5, 120)])[:landmarks]
+    landmark_vertices = np.array([[known[v], v] for v in (5, 120)])[:landmarks]
     sides = (known, np.arange(len(known)))
-    return training_pair(shapes[a], shapes[b], config, landmarks=marks, truth=sides, samples=samples)
+    return training_pair(shapes[a], shapes[b], config, landmarks=landmark_vertices, truth=sides, samples=samples)
 
 
 @pytest.fixture(scope="module")
@@ -112,13 +112,13 @@ def test_the_map_is_that_of_a_match(formulation, shapes):
     """The whole way, with as many samples: descriptors, features, energy, minimiser."""
     base = replace(CONFIG, formulation=formulation)
     known = partners(0, 1)
-    marks = np.array([[known[v], v] for v in (5, 120)])
+    landmark_vertices = np.array([[known[v], v] for v in (5, 120)])
     each = taught(shapes, 0, 1, base, samples=200)
     model = shaken(Model(base, [each], ["gamma", "terms"]))
     with torch.no_grad():
         C = functional_map(model, each, EXACT)
     config = replace(model.settings(), solver=EXACT, nystrom=NystromConfig(samples=200, rtol=1e-9))
-    found = match(shapes[0], shapes[1], config, landmarks=marks)
+    found = match(shapes[0], shapes[1], config, landmarks=landmark_vertices)
     np.testing.assert_allclose(C, found.functional_map, atol=2e-4)
 
 

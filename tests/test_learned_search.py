@@ -36,9 +36,9 @@ def creature():
     return prepare(made.source, CONFIG), prepare(made.target, CONFIG), made.truth
 
 
-def taught(matrix, marks=0, **more):
+def taught(matrix, landmark_vertices=0, **more):
     """``CONFIG`` with a metric, and with other weights than the usual ones, as if all had been learned."""
-    kernel = Metric(Gaussian(1.0), matrix, marks)
+    kernel = Metric(Gaussian(1.0), matrix, landmark_vertices)
     weights, asked = Weights(1000.0, 1.0, 300.0), Formulation(mask="resolvent")
     return replace(CONFIG, kernel=kernel, weights=weights, bandwidth_scale=5.0, formulation=asked, **more)
 
@@ -63,12 +63,12 @@ def test_what_was_learned_stays_out_of_the_searchs_own_fits():
 
 def test_a_kernel_knows_its_landmarks(creature):
     source, target, truth = creature
-    marks = np.array([[truth[v], v] for v in (3, 200, 500)])
+    landmark_vertices = np.array([[truth[v], v] for v in (3, 200, 500)])
     with pytest.raises(InvalidInput, match="learned with 6"):
-        search_map(source, target, taught([[1.0] * COUNT], 6), landmarks=marks)
+        search_map(source, target, taught([[1.0] * COUNT], 6), landmarks=landmark_vertices)
     one = replace(taught([[1.0] * COUNT], 3), search=None)
     assert n_kernel_landmarks(one.kernel) == 3
-    assert fit(source, target, one, landmarks=marks).functional_map.shape == (30, 30)
+    assert fit(source, target, one, landmarks=landmark_vertices).functional_map.shape == (30, 30)
     with pytest.raises(InvalidInput, match="expected 3 of them, as the kernel was learned with, got 0"):
         fit(source, target, one)  # as many descriptors, of other things
     with pytest.raises(InvalidInput, match="Metric landmarks"):

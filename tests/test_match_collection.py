@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import kfmaps
-from collecting import CONFIG, bent
+from collecting import CONFIG, registered
 from kfmaps._arrays import InvalidInput
 from kfmaps.shape import Shape, prepare
 
@@ -22,7 +22,7 @@ LOCAL = replace(LOCAL, descriptors=replace(LOCAL.descriptors, shot=True))
 
 @pytest.fixture(scope="module")
 def shapes() -> dict[str, Shape]:
-    return {f"s{i}": prepare(bent(i, N), LOCAL, name=f"s{i}") for i in range(4)}
+    return {f"s{i}": prepare(registered(i, N), LOCAL, name=f"s{i}") for i in range(4)}
 
 
 def true_maps(shapes: dict[str, Shape]) -> dict[tuple[str, str], np.ndarray]:
@@ -33,8 +33,8 @@ def true_maps(shapes: dict[str, Shape]) -> dict[tuple[str, str], np.ndarray]:
 def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> None:
     maps = true_maps(shapes)
     maps["s0", "s2"] = np.random.default_rng(0).permutation(N)
-    told: list[str] = []
-    found = kfmaps.match_collection(shapes, maps, config=LOCAL, progress=lambda what, *_: told.append(what))
+    calls: list[str] = []
+    found = kfmaps.match_collection(shapes, maps, config=LOCAL, progress=lambda what, *_: calls.append(what))
     assert list(found.replacements) == [("s0", "s2")]
     assert found.replacements["s0", "s2"].startswith("composition through s")
     at = found.pairs.index(("s0", "s2"))
@@ -45,7 +45,7 @@ def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> 
     assert [m is None for m in found.matches].count(False) == 1
     assert min(found.probabilities) > 0.5
     assert set(found.chirality.values()) == {1}
-    assert set(told) == {"shapes", "pairs"}
+    assert set(calls) == {"shapes", "pairs"}
     D = found.distances()
     assert D.shape == (4, 4)
     assert D[0, 1] < D[0, 3]
@@ -86,8 +86,8 @@ def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
         (two, {"maps": {("s0", "s1"): np.arange(N) + 1}}, "s0 → s1"),
         (two, {"maps": {}}, "at least one"),
     ]
-    for some, more, told in refused:
-        with pytest.raises(InvalidInput, match=told):
+    for some, more, output in refused:
+        with pytest.raises(InvalidInput, match=output):
             kfmaps.match_collection(some, **more, config=LOCAL)
 
 

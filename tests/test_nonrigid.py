@@ -147,8 +147,8 @@ def test_registration_repairs_sliding_and_a_folded_limb(pair: datasets.ExamplePa
 
 def test_a_match_has_points_in_triangles(pair: datasets.ExamplePair, shapes: tuple[kfmaps.Shape, kfmaps.Shape]) -> None:
     """Closer to the truth than its vertices; ``target_to_source`` is the nearest corner."""
-    marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
-    found = kfmaps.match(*shapes, CONFIG, landmarks=marks)
+    landmark_vertices = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
+    found = kfmaps.match(*shapes, CONFIG, landmarks=landmark_vertices)
     place, report = found.precise(), cast(RegistrationReport, found.registration.report)
     assert (report.accepted, report.reason) == (True, None)
     assert report.loss is not None
@@ -158,15 +158,15 @@ def test_a_match_has_points_in_triangles(pair: datasets.ExamplePair, shapes: tup
     corners = pair.source.faces[place.faces]
     assert (corners == found.target_to_source[:, None]).any(axis=1).all()
     true = np.einsum("ti,tij->tj", pair.truth_weights, pair.source.vertices[pair.source.faces[pair.truth_faces]])
-    plain = kfmaps.match(*shapes, replace(CONFIG, registration=None), landmarks=marks)
+    plain = kfmaps.match(*shapes, replace(CONFIG, registration=None), landmarks=landmark_vertices)
     errors = [
         np.linalg.norm(point_positions(p, pair.source) - true, axis=1).mean()
         for p in (place, vertex_point_map(plain.target_to_source, pair.source))
     ]
     assert errors[0] < 0.75 * errors[1]
     target = unit_area(pair.target)
-    bent = cast(np.ndarray, found.registration.registered_vertices)
-    away = closest_points(bent, target.vertices, target.faces).distances
+    registered = cast(np.ndarray, found.registration.registered_vertices)
+    away = closest_points(registered, target.vertices, target.faces).distances
     assert away.mean() < 2e-3
     spectral = np.linalg.norm(point_positions(plain.precise(), pair.source) - true, axis=1).mean()
     assert errors[0] < spectral < errors[1]

@@ -211,8 +211,8 @@ def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
         (1.01, "the target has holes (0% is missing)"),
     ],
 )
-def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, told):
-    assert describe_part("target", scale, (np.ones(1), np.ones(1)), "because") == told
+def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, output):
+    assert describe_part("target", scale, (np.ones(1), np.ones(1)), "because") == output
 
 
 @pytest.mark.parametrize(
@@ -261,8 +261,8 @@ def test_two_parts_are_placed_by_coarse_proxies_and_their_landmarks(pair, monkey
     sizes = [np.sqrt(surface_area(mesh)) for mesh in (pair.target, whole)]
     settings = Partial("both", scale, samples=100, whole_samples=300)
     meshes = unit_area(pair.target), unit_area(whole)
-    marks, ratio = np.stack([rows, true[rows]], axis=1), float(sizes[0] / sizes[1])
-    found = place_part(PartTask(*meshes, settings, ratio, both_partial=True), marks)
+    landmark_vertices, ratio = np.stack([rows, true[rows]], axis=1), float(sizes[0] / sizes[1])
+    found = place_part(PartTask(*meshes, settings, ratio, both_partial=True), landmark_vertices)
     off = np.linalg.norm(found.registration.vertices - meshes[1].vertices[true], axis=1)
     assert off[known].mean() < 0.06
     assert found.registration.scale == pytest.approx(ratio, rel=1e-9 if scale == "fixed" else 0.1)
@@ -276,14 +276,14 @@ def test_two_parts_have_a_calibration_of_their_own(small, monkeypatch, which, wo
     asked, score = [], SCORE.part.calibration_of_two.middle + 2
     assert score < PART.middle - 2
     places, all_ = vertex_point_map(np.arange(200), small.mesh), np.ones(200)
-    bent = SimpleNamespace(scale=1.0, vertices=small.mesh.vertices)
+    registered = SimpleNamespace(scale=1.0, vertices=small.mesh.vertices)
     overlap = SimpleNamespace(part=all_, whole=all_, on_whole=places, on_part=places)
 
     def place(*_, landmarks, **__):
         asked.append(len(landmarks))
         # Errors at the landmarks at which they support nothing.
         far = small.mesh.vertices + np.array([0.0, 0.0, 0.09])
-        return SimpleNamespace(registration=bent, overlap=overlap, scores=(score,), margin=3.0, unguided=far)
+        return SimpleNamespace(registration=registered, overlap=overlap, scores=(score,), margin=3.0, unguided=far)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
     found = match_partial(task_of(small, small, np.array([[3, 3], [50, 50]])), which, "because")[0]
@@ -299,13 +299,13 @@ def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeyp
     vertices, half, scale = small.mesh.vertices, np.arange(200) < 100, 0.5
     places = vertex_point_map(np.arange(200), small.mesh)
     overlap = SimpleNamespace(part=half * 1.0, whole=half * 1.0, on_whole=places, on_part=places)
-    bent = SimpleNamespace(scale=scale, vertices=vertices)
-    unguided, marks = vertices.copy(), np.array([[3, 3], [50, 50], [90, 90]])
+    registered = SimpleNamespace(scale=scale, vertices=vertices)
+    unguided, landmark_vertices = vertices.copy(), np.array([[3, 3], [50, 50], [90, 90]])
     unguided[50] += [0.0, 0.0, 0.15]  # contradicted, so named; the others are where they belong
-    one = SimpleNamespace(registration=bent, overlap=overlap, scores=(20.0,), margin=0.0, unguided=unguided)
+    one = SimpleNamespace(registration=registered, overlap=overlap, scores=(20.0,), margin=0.0, unguided=unguided)
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: one)
-    found = match_partial(task_of(small, small, marks), "both", "because")[0]
-    near = (scale * geodesic_distances(small.mesh, marks[:, 1]) < SCORE.landmark_radius).any(axis=0)
+    found = match_partial(task_of(small, small, landmark_vertices), "both", "because")[0]
+    near = (scale * geodesic_distances(small.mesh, landmark_vertices[:, 1]) < SCORE.landmark_radius).any(axis=0)
     areas = small.basis.mass * half
     right = 1 / (1 + np.exp((0.05 - SCORE.landmark_error_middle) / SCORE.landmark_error_width))
     support = (areas[near].sum() / areas.sum()) ** 2 * right
@@ -397,10 +397,10 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
     ],
 )
 def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
-    monkeypatch, small, word, told, opening, asked, whole, expected, steps
+    monkeypatch, small, word, output, opening, asked, whole, expected, steps
 ):
     tried = []
-    part = SimpleNamespace(verdict=word, confidence=told, partial=MatchPart(scale=0.7))
+    part = SimpleNamespace(verdict=word, confidence=output, partial=MatchPart(scale=0.7))
     other = SimpleNamespace(verdict=whole, confidence=0.6, partial=MatchPart(scale=0.7))
 
     def parts(*_, clear_only=False):
@@ -438,13 +438,13 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
     ],
 )
 def test_what_is_open_may_have_more_than_what_is_closed(
-    monkeypatch, small, word, asked, scale, told, scale_of_opposite, expected
+    monkeypatch, small, word, asked, scale, output, scale_of_opposite, expected
 ):
     """A scan with its floor holds a whole body, so the closed shape may be the part."""
     word, _, marked = word.partition(", ")
     landmarks = [[0, 0]] if marked else None
     part = SimpleNamespace(verdict=word, confidence=0.6, partial=MatchPart(scale=scale))
-    opposite = SimpleNamespace(verdict="likely", confidence=told, partial=MatchPart(scale=scale_of_opposite))
+    opposite = SimpleNamespace(verdict="likely", confidence=output, partial=MatchPart(scale=scale_of_opposite))
     answers = {"target": part, "source": opposite}
     tried = []
 

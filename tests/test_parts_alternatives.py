@@ -59,8 +59,8 @@ def placed_at(half, places):
     whole = on.whole
     match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(places)[1])
     alike = shot_similarity(on, scale, TRIALS[0])
-    rough = Placement(scale, TRIALS[0], Assignment(match, np.ones(len(match)), 1.0), alike)
-    return make_candidate(rough, on)
+    coarse = Placement(scale, TRIALS[0], Assignment(match, np.ones(len(match)), 1.0), alike)
+    return make_candidate(coarse, on)
 
 
 @pytest.fixture(scope="module")
@@ -237,15 +237,15 @@ def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better
     rows = rows[true[rows] >= 0][:4]
     config = replace(SMALL, partial=Partial("both", samples=100, whole_samples=300))
     source, target = (prepare(mesh, config, name=name) for (mesh, _), name in zip(pieces, "ab", strict=True))
-    told: list[bool] = []
+    calls: list[bool] = []
 
     def place_by_landmarks(*given: Any) -> Any:
-        told.append(given[-1])
+        calls.append(given[-1])
         return _place_by_landmarks(*given)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial._place_by_landmarks", place_by_landmarks)
     found = match_partial(task_of(source, target, np.stack([true[rows], rows], axis=1), config), "both", "because")[0]
-    assert told == [True]  # what a contradicted landmark costs is that of two parts
+    assert calls == [True]  # what a contradicted landmark costs is that of two parts
     assert len(found.score.rejected_landmarks) == 0
     on, places = (true >= 0) & (found.target_to_source >= 0), source.mesh.vertices
     assert np.linalg.norm(places[found.target_to_source[on]] - places[true[on]], axis=1).mean() < 0.08
@@ -303,14 +303,14 @@ def test_similarities_of_a_small_part_alone_are_weighted(pair: PartPair) -> None
 
 def test_ranks_of_a_small_part_are_weighted_by_squares(pair: PartPair) -> None:
     similarity = np.tile(np.arange(5.0), (5, 1)).astype(np.float32)
-    begun = Placement(SCALE, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), similarity)
+    start = Placement(SCALE, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), similarity)
     ranks = np.log((5 - np.arange(5)) / 5)
     for one, wanted in (
-        (place_all(replace(pair, small_scale=None), begun), ranks.mean()),
-        (place_all(pair, begun), (WEIGHTS**2 * ranks).sum() / (WEIGHTS**2).sum()),
+        (place_all(replace(pair, small_scale=None), start), ranks.mean()),
+        (place_all(pair, start), (WEIGHTS**2 * ranks).sum() / (WEIGHTS**2).sum()),
     ):
-        told = replace(one, placed=replace(one.placed, match=np.arange(5))).evidence
-        assert told.similarity_rank == pytest.approx(wanted)
+        output = replace(one, placed=replace(one.placed, match=np.arange(5))).evidence
+        assert output.similarity_rank == pytest.approx(wanted)
 
 
 def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.MonkeyPatch, pair: PartPair) -> None:
@@ -327,9 +327,9 @@ def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.Monkey
         samples=np.arange(5), landmarks=np.arange(0), mesh=SimpleNamespace(vertices=np.eye(5)), surface=surface
     )
     pair = replace(pair, whole=whole)
-    begun = Placement(SCALE, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), np.eye(5))
+    start = Placement(SCALE, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), np.eye(5))
     for scale in (SCALE, 0.8 * SCALE, 1.25 * SCALE):
-        one = replace(begun, scale=scale)
+        one = replace(start, scale=scale)
         changed = candidates.make_candidate(one, pair).evidence.scale_change
         assert changed == pytest.approx(abs(np.log(scale / SCALE)))
         assert candidates.make_candidate(one, replace(pair, small_scale=None)).evidence.scale_change == 0.0

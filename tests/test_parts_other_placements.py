@@ -36,7 +36,7 @@ OTHER = np.roll(np.arange(2 * HALF), HALF)
 SCALE = 0.5
 
 
-def sheet(marks=0, told=0.05):
+def sheet(landmarks=0, output=0.05):
     """Points of a sheet, as a part in another unit and as a whole; descriptors know a little which is which."""
     rng = np.random.default_rng(0)
     points = rng.uniform(-0.5, 0.5, size=(HALF, 3)) * [1.0, 0.6, 0.0]
@@ -49,11 +49,11 @@ def sheet(marks=0, told=0.05):
         mesh = Mesh(points / scale, np.zeros((0, 3), dtype=np.int64))
         known = {
             radius / (beside if scale == 1.0 else _shot_scale(SCALE * beside)): own
-            * np.float32(told if scale == 1.0 else 1.0)
+            * np.float32(output if scale == 1.0 else 1.0)
             for radius in TRIALS[0].radii
             for beside in _SCALE_RATIOS
         }
-        sides.append(PartSamples(mesh, each, between / np.float32(scale), endless, marks, known))
+        sides.append(PartSamples(mesh, each, between / np.float32(scale), endless, landmarks, known))
     return points, *sides
 
 
@@ -81,7 +81,7 @@ def test_rivals_lie_elsewhere_and_have_the_scale_of_the_placing():
 
 
 def test_a_landmark_allows_no_rival_that_moves_it():
-    points, part, whole = sheet(marks=2)
+    points, part, whole = sheet(landmarks=2)
     for one in _alternative_placements(PartPair(part, whole), SCALE, points):
         assert one.placed.match[:2].tolist() == [0, 1]
         assert one.placed.support < 0.9
@@ -116,7 +116,7 @@ def test_samples_without_a_place_are_not_trusted():
 
 
 def test_landmarks_are_trusted_wherever_they_are():
-    _, part, whole = sheet(marks=2)
+    _, part, whole = sheet(landmarks=2)
     match = np.arange(2 * HALF)
     match[:2] = OTHER[:2]
     placed = Assignment(match, np.full(2 * HALF, 0.5), 1.0)
@@ -129,14 +129,14 @@ def test_landmarks_are_trusted_wherever_they_are():
     ("longer", "marks", "end"),
     [(0.01, 0, MIN_SCALE), (0.01, 2, MIN_MARKED_SCALE), (100.0, 0, MAX_SCALE), (1.0, 0, SCALE)],
 )
-def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, marks: int, end: float) -> None:
-    _, part, whole = sheet(marks)
+def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, landmarks: int, end: float) -> None:
+    _, part, whole = sheet(landmarks)
     alike, placed = np.eye(2 * HALF), Assignment(np.arange(2 * HALF), np.ones(2 * HALF), 1.0)
     monkeypatch.setattr(scale_search, "scale_change", lambda *_: longer)
     monkeypatch.setattr(scale_search, "shot_similarity", lambda *_: alike)
-    begun = Placement(SCALE, TRIALS[0], placed, alike)
-    assert refine_placement(PartPair(part, whole), begun).scale == end
-    assert refine_placement(PartPair(part, whole, fixed_scale=True), begun).scale == SCALE
+    start = Placement(SCALE, TRIALS[0], placed, alike)
+    assert refine_placement(PartPair(part, whole), start).scale == end
+    assert refine_placement(PartPair(part, whole, fixed_scale=True), start).scale == SCALE
 
 
 @pytest.fixture(scope="module")
@@ -191,9 +191,9 @@ def test_a_descriptor_that_knows_decides_between_mirror_images():
     part = distance_bounds(between, np.full(81, np.inf, dtype=np.float32), 1.0)
     alike = np.zeros((81, 81), dtype=np.float32)
     for way in (1, -1):
-        told = alike.copy()
-        told[np.arange(81), np.arange(81)[::way]] = 1.0
-        first = beam_search(part, np.full(81, np.inf, dtype=np.float32), between, told)[0]
+        output = alike.copy()
+        output[np.arange(81), np.arange(81)[::way]] = 1.0
+        first = beam_search(part, np.full(81, np.inf, dtype=np.float32), between, output)[0]
         anchors = np.flatnonzero(first.trust)
         np.testing.assert_array_equal(first.match[anchors], np.arange(81)[::way][anchors])
 

@@ -93,11 +93,11 @@ def test_a_part_that_was_moved_lies_where_it_was_cut(shapes, laid):
 def test_all_vertices_follow_a_coarse_proxy(shapes, laid):
     whole, half, own = shapes
     _, on, part, size = laid
-    copy = coarse_proxy(part, spread_vertices(part, len(own) // 3))
-    at = own[copy.vertices]
-    pair = PartPair(sampled(copy.mesh, np.arange(len(at))), on)
+    proxy = coarse_proxy(part, spread_vertices(part, len(own) // 3))
+    at = own[proxy.vertices]
+    pair = PartPair(sampled(proxy.mesh, np.arange(len(at))), on)
     coarse = register_part(pair, size, whole.vertices[at], on.surface.normals[at], np.ones(len(at)))
-    found = refine_registration(coarse, copy, part, on, np.zeros((0, 2), dtype=int))
+    found = refine_registration(coarse, proxy, part, on, np.zeros((0, 2), dtype=int))
     assert len(coarse.vertices) < len(own) // 2
     assert np.linalg.norm(found.vertices - half.vertices, axis=1).mean() < 2e-3
     assert found.gap < 1e-3

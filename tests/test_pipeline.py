@@ -41,21 +41,21 @@ MARKS = np.array([3, 100, 250, 390])
 
 
 @pytest.fixture(scope="module")
-def marks(truth):
+def landmark_vertices(truth):
     """Corresponding vertices of the two meshings of one shape."""
     target = np.array([5, 90, 200, 300, 350])
     return np.stack([truth[target], target], axis=1)
 
 
 @pytest.fixture(scope="module")
-def plain(shape, other, marks):
+def plain(shape, other, landmark_vertices):
     """The match of the two, which some changes leave as it is."""
-    return match(shape, other, SMALL, landmarks=marks)
+    return match(shape, other, SMALL, landmarks=landmark_vertices)
 
 
-def energy_of(shape, other, config, marks, bases=None):
+def energy_of(shape, other, config, landmark_vertices, bases=None):
     bases = bases or (shape.basis, other.basis)
-    used = pair_descriptors(shape, other, bases, config.descriptors, marks, None)
+    used = pair_descriptors(shape, other, bases, config.descriptors, landmark_vertices, None)
     return assemble(shape, other, bases, used, config, np.random.default_rng(0)).energy
 
 
@@ -70,61 +70,61 @@ def test_two_meshings_match(shape, other, plain):
 
 def test_permuted_vertices_permute_the_answer(shape, rng):
     order = rng.permutation(400)
-    marks = np.stack([MARKS, np.argsort(order)[MARKS]], axis=1)
-    found = match(shape, reordered(blob(400), order), SMALL, landmarks=marks)
+    landmark_vertices = np.stack([MARKS, np.argsort(order)[MARKS]], axis=1)
+    found = match(shape, reordered(blob(400), order), SMALL, landmarks=landmark_vertices)
     np.testing.assert_array_equal(found.target_to_source, order)
     np.testing.assert_array_equal(found.fit.raw_target_to_source, order)
     assert found.local_confidence == pytest.approx(1)
 
 
-def test_rigid_motion_and_units_change_nothing(shape, marks, plain):
+def test_rigid_motion_and_units_change_nothing(shape, landmark_vertices, plain):
     mesh = blob(360, twist=0.4)
     moved = Mesh(1000 * mesh.vertices @ rotation(1).T + [5e3, -2e3, 1e3], mesh.faces)
-    found = match(shape, prepare(moved, SMALL), RAW, landmarks=marks)
+    found = match(shape, prepare(moved, SMALL), RAW, landmarks=landmark_vertices)
     assert (found.target_to_source == plain.fit.raw_target_to_source).mean() > 0.99
     maps = [np.abs(one.fit.raw_functional_map) for one in (found, plain)]
     np.testing.assert_allclose(maps[0], maps[1], atol=1e-4)
 
 
-def test_flipped_signs_of_eigenvectors_change_nothing(shape, other, marks, plain, rng):
+def test_flipped_signs_of_eigenvectors_change_nothing(shape, other, landmark_vertices, plain, rng):
     signs = np.where(rng.random(40) < 0.5, -1.0, 1.0)
     flipped = replace(other, basis=Basis(other.basis.eigenvalues, other.basis.functions * signs, other.basis.mass))
-    found = match(shape, flipped, SMALL, landmarks=marks)
+    found = match(shape, flipped, SMALL, landmarks=landmark_vertices)
     np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
     np.testing.assert_allclose(found.functional_map, signs[:, None] * plain.functional_map, atol=1e-6)
 
 
 @pytest.mark.parametrize("sampling", get_args(Sampling))
-def test_operator_is_symmetric_positive_under_every_sampling(sampling, shape, other, marks):
+def test_operator_is_symmetric_positive_under_every_sampling(sampling, shape, other, landmark_vertices):
     small = replace(RAW, basis=BasisConfig(n_eigenfunctions=6), nystrom=NystromConfig(samples=30, sampling=sampling))
-    energy = energy_of(shape, other, small, marks)
+    energy = energy_of(shape, other, small, landmark_vertices)
     matrix = dense_matrix(energy.apply, (6, 6), np.zeros((6, 6)))
     np.testing.assert_allclose(matrix, matrix.T, atol=1e-10 * np.abs(matrix).max())
     assert np.linalg.eigvalsh(matrix)[0] > 0
     np.testing.assert_allclose(np.diag(matrix).reshape(6, 6), energy.diagonal(), rtol=1e-8)
 
 
-def test_linear_kernel_is_no17_and_the_exact_form_agrees(shape, other, marks, rng):
+def test_linear_kernel_is_no17_and_the_exact_form_agrees(shape, other, landmark_vertices, rng):
     config = replace(RAW, kernel=Linear(), basis=BasisConfig(n_eigenfunctions=8))
     C = rng.normal(size=(8, 8))
-    features = energy_of(shape, other, config, marks)
-    exact = energy_of(shape, other, replace(config, full_kernel=True), marks)
+    features = energy_of(shape, other, config, landmark_vertices)
+    exact = energy_of(shape, other, replace(config, full_kernel=True), landmark_vertices)
     np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(features.rhs(), exact.rhs(), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(features.diagonal(), exact.diagonal(), rtol=1e-9, atol=1e-9)
 
 
-def test_conjugate_gradients_equal_the_dense_solve(shape, other, marks):
+def test_conjugate_gradients_equal_the_dense_solve(shape, other, landmark_vertices):
     config = replace(RAW, basis=BasisConfig(n_eigenfunctions=8))
-    iterated = match(shape, other, config, landmarks=marks)
-    direct = match(shape, other, replace(config, solver=Direct()), landmarks=marks)
+    iterated = match(shape, other, config, landmarks=landmark_vertices)
+    direct = match(shape, other, replace(config, solver=Direct()), landmarks=landmark_vertices)
     np.testing.assert_allclose(iterated.fit.raw_functional_map, direct.fit.raw_functional_map, atol=1e-5)
-    plain = match(shape, other, replace(config, preconditioner="none"), landmarks=marks)
+    plain = match(shape, other, replace(config, preconditioner="none"), landmarks=landmark_vertices)
     np.testing.assert_allclose(plain.fit.raw_functional_map, direct.fit.raw_functional_map, atol=1e-4)
 
 
-def test_truncation_hardly_changes_the_result(shape, other, marks, plain):
-    fewer = match(shape, other, replace(RAW, operator_rtol=1e-5), landmarks=marks)
+def test_truncation_hardly_changes_the_result(shape, other, landmark_vertices, plain):
+    fewer = match(shape, other, replace(RAW, operator_rtol=1e-5), landmarks=landmark_vertices)
     assert (fewer.fit.n_operators or 99) < plain.fit.n_operators
     np.testing.assert_allclose(fewer.fit.raw_functional_map, plain.fit.raw_functional_map, atol=0.01)
 
@@ -137,8 +137,8 @@ def test_truncation_hardly_changes_the_result(shape, other, marks, plain):
     ],
     ids=["sum and product", "scikit-learn"],
 )
-def test_other_kernels_match_too(kernel, shape, other, marks):
-    found = match(shape, other, replace(SMALL, kernel=kernel), landmarks=marks)
+def test_other_kernels_match_too(kernel, shape, other, landmark_vertices):
+    found = match(shape, other, replace(SMALL, kernel=kernel), landmarks=landmark_vertices)
     moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
     assert np.linalg.norm(moved, axis=1).mean() < 0.05
 
@@ -151,29 +151,29 @@ def test_descriptors_of_the_users_own(shape, other):
     assert found.verdict == "unchecked"
 
 
-def test_the_same_seed_gives_the_same_answer(shape, other, marks, plain):
+def test_the_same_seed_gives_the_same_answer(shape, other, landmark_vertices, plain):
     for seed, same in ((0, True), (6, False)):
-        found = match(shape, other, RAW, landmarks=marks, rng=seed)
+        found = match(shape, other, RAW, landmarks=landmark_vertices, rng=seed)
         assert np.array_equal(found.fit.raw_functional_map, plain.fit.raw_functional_map) == same
 
 
-def test_progress_goes_from_start_to_end(shape, other, marks):
-    told = []
-    match(shape, other, SMALL, landmarks=marks, progress=lambda stage, done: told.append((stage, done)))
+def test_progress_goes_from_start_to_end(shape, other, landmark_vertices):
+    calls = []
+    match(shape, other, SMALL, landmarks=landmark_vertices, progress=lambda stage, done: calls.append((stage, done)))
     for stage in ("descriptors", "energy", "solve", "point map", "refinement"):
-        done = [d for s, d in told if s == stage]
+        done = [d for s, d in calls if s == stage]
         assert done[0] == 0.0
         assert done[-1] == 1.0
         assert done == sorted(done)
 
 
-def test_paper_settings_do_ten_plain_steps(shape, other, marks):
+def test_paper_settings_do_ten_plain_steps(shape, other, landmark_vertices):
     paper = replace(
         Config.paper(),
         basis=BasisConfig(n_eigenfunctions=15),
         descriptors=replace(Config.paper().descriptors, n_eigenfunctions=40),
     )
-    found = match(shape, other, paper, landmarks=marks)
+    found = match(shape, other, paper, landmarks=landmark_vertices)
     assert (found.fit.status, found.fit.steps) == ("step limit", 10)
     assert found.fit.kernel.startswith("Gaussian")
 
@@ -193,29 +193,29 @@ def test_bad_landmarks_are_refused(landmarks, shape, other):
         check_landmark_pairs(np.asarray(landmarks), shape, other)
 
 
-def test_bad_descriptors_are_refused(shape, other, marks):
+def test_bad_descriptors_are_refused(shape, other, landmark_vertices):
     good = np.ones((360, 2))
     for given in ((np.ones((399, 2)), good), (np.ones((400, 3)), good), (np.full((400, 2), np.nan), good)):
         with pytest.raises(InvalidInput):
-            match(shape, other, RAW, landmarks=marks, descriptors=given)
+            match(shape, other, RAW, landmarks=landmark_vertices, descriptors=given)
     with pytest.raises(InvalidInput, match="at least one"):
         match(shape, other, replace(RAW, descriptors=NO_DESCRIPTORS))
 
 
-def test_shapes_prepared_otherwise_are_refused(shape, other, marks):
+def test_shapes_prepared_otherwise_are_refused(shape, other, landmark_vertices):
     for config, wanted in (
         (replace(SMALL, basis=BasisConfig(n_eigenfunctions=50)), "50 eigenfunctions"),
         (replace(SMALL, basis=replace(SMALL.basis, laplacian="cotangent")), "cotangent Laplacian"),
         (replace(SMALL, descriptors=replace(SMALL.descriptors, shot=True, shot_radius=0.2)), "SHOT of radius 0.2"),
     ):
         with pytest.raises(InvalidInput, match=wanted):
-            match(shape, other, config, landmarks=marks)
+            match(shape, other, config, landmarks=landmark_vertices)
 
 
-def test_a_breakdown_is_told(shape, other, marks, monkeypatch):
+def test_a_breakdown_is_told(shape, other, landmark_vertices, monkeypatch):
     monkeypatch.setattr(Energy, "apply", lambda _energy, C: -C)
     with pytest.warns(KfmapsWarning, match="broke down"):
-        found = match(shape, other, RAW, landmarks=marks)
+        found = match(shape, other, RAW, landmarks=landmark_vertices)
     assert found.fit.status == "breakdown"
 
 
@@ -254,10 +254,10 @@ def test_impossible_settings_are_refused(values):
         from_dict(values)
 
 
-def test_weights_reach_the_energy(shape, other, marks, rng):
+def test_weights_reach_the_energy(shape, other, landmark_vertices, rng):
     C = rng.normal(size=(20, 20))
     config = replace(RAW, weights=Weights(descriptors=2.0, commutativity=3.0, laplacian=5.0, orientation=7.0))
-    energy = energy_of(shape, other, config, marks)
+    energy = energy_of(shape, other, config, landmark_vertices)
     assert energy.weights == {"descriptors": 2.0, "commutativity": 3.0, "laplacian": 5.0, "orientation": 7.0}
     parts = energy.breakdown(C)
     assert min(parts.values()) > 0

@@ -65,11 +65,11 @@ def test_a_terminal_has_a_bar_for_each_stage(
     with Stages() as stages:
         for done in (0.0, 0.5, 1.0, 0.0, 1.0):
             stages("SHOT of a[b]\x07", done)
-    told = capsys.readouterr().err
-    assert "SHOT of a[b]" in told
-    assert "\x1b[" in told
-    assert "\x07" not in told
-    assert "\\x1b" not in told
+    output = capsys.readouterr().err
+    assert "SHOT of a[b]" in output
+    assert "\x1b[" in output
+    assert "\x07" not in output
+    assert "\\x1b" not in output
 
 
 def test_a_collection_on_a_terminal_has_bars_and_tells_failures_above_them(
@@ -82,11 +82,11 @@ def test_a_collection_on_a_terminal_has_bars_and_tells_failures_above_them(
         report.stage("likeness of shapes", 2, 2)
         report.status(RunStatus(2, 2, 1, 1, 3, 1, 40.0, 1), failed)
         report.status(RunStatus(2, 2, 3, 1, 3, 1, 0.0, 3), None)
-    told = capsys.readouterr().out
-    assert "failed: a → b: no triangles" in told
+    output = capsys.readouterr().out
+    assert "failed: a → b: no triangles" in output
     for text in ("likeness of shapes", "2/2", "pairs", "3/3", "1 failed, finished"):
-        assert text in told, text
-    assert "3/3 (1 failed)" not in told  # that is for files, which have no bars
+        assert text in output, text
+    assert "3/3 (1 failed)" not in output  # that is for files, which have no bars
 
 
 def test_short_stages_are_a_line_each_and_nothing_where_all_is_quiet(capsys: pytest.CaptureFixture[str]) -> None:
@@ -118,11 +118,11 @@ def test_a_notebook_gets_bars_of_its_own(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_the_long_stages_of_a_shape_tell_how_far_they_are() -> None:
     """Eigenfunctions and SHOT: never back, to the end, and without a trace in what is computed."""
     config = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True))
-    told: dict[str, list[float]] = {}
+    output: dict[str, list[float]] = {}
     mesh = blob(600)
-    shape = prepare(mesh, config, name="it", progress=lambda stage, done: told.setdefault(stage, []).append(done))
-    assert set(told) == {"eigenfunctions of it", "SHOT of it"}
-    for stages in told.values():
+    shape = prepare(mesh, config, name="it", progress=lambda stage, done: output.setdefault(stage, []).append(done))
+    assert set(output) == {"eigenfunctions of it", "SHOT of it"}
+    for stages in output.values():
         assert stages[0] == 0
         assert stages[-1] == 1
         assert stages == sorted(stages)

@@ -109,18 +109,18 @@ def reference() -> Iterator[tuple[str, Callable]]:
     """Yield the functions and methods that the pages of docs/api show, with their names."""
     for page in sorted(API.glob("*.rst")):
         for kind, name, options in DIRECTIVE.findall(page.read_text(encoding="utf-8")):
-            told = dict(re.findall(r":([\w-]+):(.*)", options))
+            output = dict(re.findall(r":([\w-]+):(.*)", options))
             home = importlib.import_module(name if kind == "module" else name.rpartition(".")[0])
             own = [one for one, value in vars(home).items() if getattr(value, "__module__", "") == name]
-            named = told.get("members", "").replace(",", " ").split()
-            members = (named or own if "members" in told else []) if kind == "module" else [name.rpartition(".")[2]]
+            named = output.get("members", "").replace(",", " ").split()
+            members = (named or own if "members" in output else []) if kind == "module" else [name.rpartition(".")[2]]
             for one in members:
                 value = getattr(home, one)
-                if one.startswith("_") or one in told.get("exclude-members", "").replace(",", " ").split():
+                if one.startswith("_") or one in output.get("exclude-members", "").replace(",", " ").split():
                     continue
                 if inspect.isfunction(value):
                     yield one, value
-                elif inspect.isclass(value) and "members" in told:
+                elif inspect.isclass(value) and "members" in output:
                     methods = [n for n in vars(value) if not n.startswith("_") and (kind == "module" or not named)]
                     yield from ((f"{one}.{n}", f) for n in methods if inspect.isfunction(f := getattr(value, n)))
 

@@ -62,8 +62,8 @@ def test_their_map_is_read_in_their_bases() -> None:
 
 def test_our_map_is_theirs_with_our_bases() -> None:
     one, two = (tri_mesh(mesh, np.ones(40)) for mesh in (MESH, OTHER))
-    marks = np.stack([ORDER[:5], np.arange(5)], axis=1)
-    found = kfmaps.match(one, two, CONFIG, landmarks=marks)
+    landmark_vertices = np.stack([ORDER[:5], np.arange(5)], axis=1)
+    found = kfmaps.match(one, two, CONFIG, landmarks=landmark_vertices)
     np.testing.assert_array_equal(found.target_to_source, ORDER)
     for mesh, basis in ((one, found.basis_source), (two, found.basis_target)):
         mesh.eigenvalues, mesh.eigenvectors = basis.eigenvalues, basis.functions
@@ -76,14 +76,14 @@ def test_with_pyfm_itself() -> None:
     functional = pytest.importorskip("pyFM.functional", reason="pyFM is not installed")
     made = pytest.importorskip("pyFM.mesh").TriMesh
     mesh1, mesh2 = (made(mesh.vertices, mesh.faces, area_normalize=True).process(60) for mesh in (MESH, OTHER))
-    marks = np.stack([ORDER[:6], np.arange(6)], axis=1)
+    landmark_vertices = np.stack([ORDER[:6], np.arange(6)], axis=1)
     model = functional.FunctionalMapping(mesh1, mesh2)
-    model.compute_spectral_descriptors(60, "WKS", 60, marks, subsample_step=5)
+    model.compute_spectral_descriptors(60, "WKS", 60, landmark_vertices, subsample_step=5)
     model.fit(K=(20, 20))
     points = kfmaps.to_points(model.FM_12, basis_of(model.mesh1), basis_of(model.mesh2))
     np.testing.assert_array_equal(points, model.get_p2p(model.FM_12))
     assert (points == ORDER).mean() > 0.5
-    found = kfmaps.match(mesh1, mesh2, CONFIG, landmarks=marks)
+    found = kfmaps.match(mesh1, mesh2, CONFIG, landmarks=landmark_vertices)
     for mesh, basis in ((mesh1, found.basis_source), (mesh2, found.basis_target)):
         mesh.eigenvalues, mesh.eigenvectors = basis.eigenvalues, basis.functions
     theirs = functional.FunctionalMapping(mesh1, mesh2).get_p2p(found.functional_map)

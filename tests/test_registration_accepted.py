@@ -157,14 +157,14 @@ def test_rotations_become_even_and_constant_ones_stay(pair: datasets.ExamplePair
     n = len(pair.source.vertices)
     one = np.broadcast_to(nearest_rotations(rng.normal(size=(1, 3, 3))), (n, 3, 3))
     np.testing.assert_allclose(_rotation_smoothing(two, 1e-3)(one), one, atol=1e-8)
-    rough = nearest_rotations(one + 0.5 * rng.normal(size=(n, 3, 3)))
+    coarse = nearest_rotations(one + 0.5 * rng.normal(size=(n, 3, 3)))
     differences = [
         float(np.sum(turns.reshape(n, 9) * (two.body.energy.laplacian @ turns.reshape(n, 9))))
-        for turns in (_rotation_smoothing(two, area)(rough) for area in (0.0, 1e-3, 1e-2))
+        for turns in (_rotation_smoothing(two, area)(coarse) for area in (0.0, 1e-3, 1e-2))
     ]
     assert differences[1] < 0.1 * differences[0]
     assert differences[2] < 0.5 * differences[1]
-    np.testing.assert_array_equal(_rotation_smoothing(two, 0.0)(rough), rough)
+    np.testing.assert_array_equal(_rotation_smoothing(two, 0.0)(coarse), coarse)
 
 
 def test_rotation_smoothing_deforms_more_evenly(pair: datasets.ExamplePair, meshes: tuple[Mesh, Mesh]) -> None:
@@ -174,9 +174,9 @@ def test_rotation_smoothing_deforms_more_evenly(pair: datasets.ExamplePair, mesh
         turns = rotations(energy, found.vertices).reshape(-1, 9)
         return float(np.sum(turns * (energy.laplacian @ turns)))
 
-    rough, even = (NonRigid(rotation_smoothing=area)(*meshes, pair.truth) for area in (0.0, 1e-3))
-    assert unevenness(even) < 0.95 * unevenness(rough)
-    assert even.gap < 1.2 * rough.gap
+    coarse, even = (NonRigid(rotation_smoothing=area)(*meshes, pair.truth) for area in (0.0, 1e-3))
+    assert unevenness(even) < 0.95 * unevenness(coarse)
+    assert even.gap < 1.2 * coarse.gap
 
 
 def test_landmarks_pull_their_surroundings_bad_ones_hardly_and_pinned_vertices_stay(
@@ -187,15 +187,21 @@ def test_landmarks_pull_their_surroundings_bad_ones_hardly_and_pinned_vertices_s
     plain = NonRigid()(source, target, slid)
     free = errors(plain, source, truth)
     worst = np.argsort(-free)
-    marks = [worst[0]]
+    landmark_vertices = [worst[0]]
     for i in worst:
-        if np.linalg.norm(target.vertices[marks] - target.vertices[i], axis=1).min() > 0.3 and len(marks) < 4:
-            marks.append(i)
-    right, wrong = (np.stack([points, marks], axis=1) for points in (pair.truth[marks], np.roll(pair.truth[marks], 1)))
-    around = np.linalg.norm(target.vertices[:, None] - target.vertices[marks], axis=2).min(axis=1) < 0.06
+        if (
+            np.linalg.norm(target.vertices[landmark_vertices] - target.vertices[i], axis=1).min() > 0.3
+            and len(landmark_vertices) < 4
+        ):
+            landmark_vertices.append(i)
+    right, wrong = (
+        np.stack([points, landmark_vertices], axis=1)
+        for points in (pair.truth[landmark_vertices], np.roll(pair.truth[landmark_vertices], 1))
+    )
+    around = np.linalg.norm(target.vertices[:, None] - target.vertices[landmark_vertices], axis=2).min(axis=1) < 0.06
     held, misled = (errors(NonRigid()(source, target, slid, landmarks=at), source, truth) for at in (right, wrong))
     assert held[around].mean() < 0.9 * free[around].mean()
-    assert held[marks].mean() < 0.85 * free[marks].mean()
+    assert held[landmark_vertices].mean() < 0.85 * free[landmark_vertices].mean()
     assert held.mean() < free.mean()
     assert misled.mean() < 1.1 * free.mean()
     half, own = truth[:, 1] > np.median(truth[:, 1]), source.vertices[slid]

@@ -88,14 +88,16 @@ def test_a_registration_by_a_wrong_map_has_a_larger_shot_error(creature_pair):
 def test_both_directions_count_unless_one_falls_apart(creature_pair, monkeypatch):
     pair = creature_pair.proxies.coarse
     for forth, back, wanted in ((0.1, 0.3, pytest.approx(0.2)), (0.1, None, pytest.approx(0.1)), (None, None, None)):
-        told = {True: forth, False: back}
-        monkeypatch.setattr(evidence, "_registered_shot_error", lambda way, *_rest, told=told: told[way is pair.forth])
+        output = {True: forth, False: back}
+        monkeypatch.setattr(
+            evidence, "_registered_shot_error", lambda way, *_rest, output=output: output[way is pair.forth]
+        )
         assert registered_shot_error(creature_pair.C, pair) == wanted
 
 
 def test_a_proxy_that_falls_apart_has_no_shot_error(creature_pair, monkeypatch):
     class Broken:
-        def bent(self, *_what):
+        def registered(self, *_what):
             raise NotConverged("it fell apart")
 
     monkeypatch.setattr(evidence, "FIT", Broken())
@@ -124,8 +126,8 @@ def test_of_repaired_maps_the_one_with_the_least_shot_error_comes_first(creature
 
     monkeypatch.setattr(registration_refine, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(registration_refine, "alternating_registration", stays)
-    begun = [bad, good], creature_pair.fine, creature_pair.proxies, NO_LANDMARKS
-    ranked = refine_by_registration(*begun)[0]
+    start = [bad, good], creature_pair.fine, creature_pair.proxies, NO_LANDMARKS
+    ranked = refine_by_registration(*start)[0]
     assert [c.name for c in ranked] == ["bad", "truth"]
     made = alternating_module.AlternatingResult(good.functional_map, creature_pair.source.mesh.vertices)
     monkeypatch.setattr(
@@ -138,7 +140,7 @@ def test_of_repaired_maps_the_one_with_the_least_shot_error_comes_first(creature
     monkeypatch.setattr(
         registration_refine, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2
     )
-    found = refine_by_registration(*begun)[0]
+    found = refine_by_registration(*start)[0]
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
@@ -204,15 +206,17 @@ def test_of_two_that_are_close_shot_errors_decide(creature_pair, monkeypatch, ma
     good = replace(good, deformation_energy=0.15)
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
-    bent = []
-    monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
+    registered = []
+    monkeypatch.setattr(
+        ranking, "score_registered", lambda c, *_what: registered.append(c.name) or replace(c, strain=0.0)
+    )
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = rerank_close([bad, good, rest], creature_pair.proxies)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.shot_error for c in found[:2]] == pytest.approx([0.0, 0.05])
     assert found[0].score - found[1].score == pytest.approx(0.05 * SCORE.w_shot - margin)
     assert found[2] is rest
-    assert bent == (["bad", "truth"] if again else [])
+    assert registered == (["bad", "truth"] if again else [])
 
 
 def test_shot_errors_are_asked_for_where_two_are_close(creature_pair, monkeypatch):
@@ -267,11 +271,11 @@ def test_what_is_far_behind_is_not_looked_at(creature_pair):
     ],
 )
 def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
-    monkeypatch, creatures, told, errors, quality, orientation, outcome
+    monkeypatch, creatures, output, errors, quality, orientation, outcome
 ):
     """``told``: the verdict without landmarks; with "less" a map that landmarks have led to is less sure."""
     source, target, truth = creatures
-    marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
+    landmark_vertices = np.stack([truth[[5, 700]], [5, 700]], axis=1)
     asked, ranked, improved = [], [], []
 
     def few(*what, **how):
@@ -283,7 +287,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         return replace(state, ranked=state.candidates)
 
     def made(state, best, rest):
-        verdict = told if told != "less" else "sure" if best.name == "free" else "likely"
+        verdict = output if output != "less" else "sure" if best.name == "free" else "likely"
         fields = {"verdict": verdict, "quality": quality, "orientation": orientation}
         return replace(build_result(state, best, rest), **fields)
 
@@ -294,27 +298,27 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=-np.inf))
     monkeypatch.setattr(search, "contradicted_landmarks", lambda _state: (np.zeros(2, dtype=bool), ()))
     monkeypatch.setattr(search, "landmark_errors", lambda *_: np.array(errors))
-    result = search.search_map(source, target, kfmaps.Config(), landmarks=marks)
+    result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     samples, how = asked[0]
     assert how.get("landmarks") is None
     for pair in (samples.coarse, samples.fine):
         assert pair.landmark_evidence is None
         assert pair.landmark_cost is None
     assert len(ranked[0].landmarks) == 0
-    np.testing.assert_array_equal(result.landmarks, marks)
+    np.testing.assert_array_equal(result.landmarks, landmark_vertices)
     assert result._search is not None
     assert result._search.samples.fine.landmark_evidence is not None
     assert len(asked) == (1 if outcome == "settled" else 2)
     assert result.initialization == ("led" if outcome == "led" else "free")
     if outcome == "settled":
         return
-    np.testing.assert_array_equal(asked[1][1]["landmarks"], marks)
+    np.testing.assert_array_equal(asked[1][1]["landmarks"], landmark_vertices)
     assert asked[1][0].fine.landmark_cost is not None
     assert [c.name for c in ranked[1].candidates] == ["led", "free"]
     assert [c.landmark_errors.shape for c in ranked[1].without_landmarks] == [(2,)]
     # What no repair could make sure is not repaired before it is searched with landmarks, but it is without any.
     monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=np.inf))
-    for at, count in ((marks, 1), (None, 1)):
+    for at, count in ((landmark_vertices, 1), (None, 1)):
         improved.clear()
         search.search_map(source, target, kfmaps.Config(), landmarks=at)
         assert len(improved) == count
@@ -323,7 +327,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
 @pytest.mark.parametrize("rejects", [[True, True], [True, False]])
 def test_a_likely_map_that_rejects_all_landmarks_is_not_sought_again(monkeypatch, creatures, rejects):
     source, target, truth = creatures
-    marks, ranked = np.stack([truth[[5, 700]], [5, 700]], axis=1), []
+    landmark_vertices, ranked = np.stack([truth[[5, 700]], [5, 700]], axis=1), []
 
     def made(state, best, rest):
         return replace(build_result(state, best, rest), verdict="likely", quality=-4.0)
@@ -337,7 +341,7 @@ def test_a_likely_map_that_rejects_all_landmarks_is_not_sought_again(monkeypatch
     monkeypatch.setattr(search, "_improve_best", lambda state, _report: (state, ()))
     monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=-np.inf))
     monkeypatch.setattr(search, "contradicted_landmarks", lambda _state: (np.array(rejects), ()))
-    result = search.search_map(source, target, kfmaps.Config(), landmarks=marks)
+    result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     assert len(ranked) == (2 if all(rejects) else 3)
     assert result._search is not None
     np.testing.assert_array_equal(result._search.rejected, rejects)

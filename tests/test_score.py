@@ -178,10 +178,10 @@ def test_the_steep_function_makes_no_map_sure() -> None:
     numbers = SCORE.calibration
     alone = replace(numbers, steep_middle=np.inf)
     for score in np.arange(-20.0, 0.0, 0.1):
-        told, before = probability(score, np.inf), probability(score, np.inf, numbers=alone)
-        assert told >= before
-        assert (told >= numbers.sure) == (before >= numbers.sure)
-        assert (told > before) == (-12.0 < score < -9.45) or abs(score + 12.0) < 0.3
+        output, before = probability(score, np.inf), probability(score, np.inf, numbers=alone)
+        assert output >= before
+        assert (output >= numbers.sure) == (before >= numbers.sure)
+        assert (output > before) == (-12.0 < score < -9.45) or abs(score + 12.0) < 0.3
     assert probability(-11.5, np.inf) > 0.75 > 0.6 > probability(-11.5, np.inf, numbers=alone)
 
 

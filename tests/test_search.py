@@ -45,13 +45,13 @@ BLOBS = SMALL, 700, 650
 @pytest.mark.parametrize("weight", [0.0, 12.0])
 def test_many_maps_at_once_are_refined_as_one_is(shape, other, weight):
     a, b = (spectral_samples(s.basis, 200) for s in (shape, other))
-    led: Any = descriptor_guidance(shape.mesh.vertices[a.vertices], other.mesh.vertices[b.vertices])
+    guided: Any = descriptor_guidance(shape.mesh.vertices[a.vertices], other.mesh.vertices[b.vertices])
     rng = np.random.default_rng(0)
     starts = np.stack([np.diag([1.0, *signs]) for signs in rng.choice([-1.0, 1.0], size=(7, 5))])
-    against = np.float32(weight) * descriptor_cost(led) if weight else None
+    against = np.float32(weight) * descriptor_cost(guided) if weight else None
     maps, points = batched_zoomout(starts, a.basis, b.basis, (6, 14, 22, 30), against)
     for C, here, start in zip(maps, points, starts, strict=True):
-        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, guidance=led)
+        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, guidance=guided)
         np.testing.assert_allclose(C, one.functional_map, atol=2e-3)
         assert (here != one.target_to_source).mean() < 0.02
 
@@ -75,13 +75,13 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
 
 def test_the_orientation_of_a_family_turns_its_maps(shape, other):
     points = sample_pair_for_fit(shape, other, FIT_SAMPLES, NO_LANDMARKS)
-    probes = sample_for_scoring(shape, 200), sample_for_scoring(other, 200)
-    cubes: Any = probes[0].orientation, probes[1].orientation
+    shape_samples = sample_for_scoring(shape, 200), sample_for_scoring(other, 200)
+    cubes: Any = shape_samples[0].orientation, shape_samples[1].orientation
     maps = [
         fit_descriptor_set([FitSpec("waves", 20, w)], points, SMALL, c, 0)[0].functional_map
         for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
     ]
-    on = build_sample_pair(*probes)
+    on = build_sample_pair(*shape_samples)
     kept, turned, free = (c.quality.orientation for c in score_maps([Start("", C) for C in maps], on))
     assert kept > 0.8
     assert kept > turned + 0.3

@@ -62,7 +62,7 @@ REMOVED = {
     "--loss-per": "formulation.loss_group",
     "--refine": "refinement",
     "--samples": "nystrom.samples",
-    "--sharpness": "bandwidth_scale",
+    "--bandwidth": "bandwidth_scale",
     "--solver": "solver",
     "--units": "partial.scale",
     "--zoom-stop": "refinement.stop",

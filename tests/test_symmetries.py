@@ -205,8 +205,8 @@ def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, m
     worse = replace(best.quality, distortion=best.quality.distortion + 1.0)
     image = replace(best, name="image", quality=worse, landmark_errors=np.zeros(10))
     free = [replace(one, landmark_errors=missed) for one in state.ranked]
-    marks = np.zeros((10, 2), dtype=np.int64)
-    led = replace(state, landmarks=marks, candidates=free, ranked=free, without_landmarks=free, doubts=())
+    landmark_vertices = np.zeros((10, 2), dtype=np.int64)
+    led = replace(state, landmarks=landmark_vertices, candidates=free, ranked=free, without_landmarks=free, doubts=())
     assert image.score > free[0].score + SCORE.mirror_margin
     monkeypatch.setattr(orientation, "mirror_candidates", lambda *_: [image])
     monkeypatch.setattr(orientation, "ranking", lambda found, *_: found)
@@ -327,7 +327,7 @@ def test_a_map_that_is_found_only_by_composition_is_composed_too(monkeypatch, sy
         return symmetry_inits(best, pair, functions)
 
     def gains(gain):
-        def rough(begun, pair, _functions):
+        def coarse_map(begun, pair, _functions):
             far = begun[0].name.startswith("self-map") and len(composed) == 1
             found = [score_maps([Start(one.name, symmetric.C)], pair)[0] for one in begun[:1]]
             return [replace(c, quality=replace(c.quality, coverage=c.quality.coverage + gain * far)) for c in found]
@@ -335,7 +335,7 @@ def test_a_map_that_is_found_only_by_composition_is_composed_too(monkeypatch, sy
         composed.clear()
         with monkeypatch.context() as patch:
             patch.setattr(candidates_module, "symmetry_inits", starts)
-            patch.setattr(candidates_module, "refine_coarse", rough)
+            patch.setattr(candidates_module, "refine_coarse", coarse_map)
             patch.setattr(candidates_module, "refine_fine", lambda few, *_: few)
             candidates(symmetric.source, symmetric.target, SMALL, symmetric.samples, 0)
         return [len(best) for best in composed]
@@ -440,7 +440,7 @@ def names(monkeypatch, pair, easy, on=None, landmarks=NO_LANDMARKS, descriptors=
     """Kinds of rough maps that are tried, weights of the signs, and how many are refined further."""
     tried, finalists = [], []
 
-    def rough(starts, *rest):
+    def coarse_map(starts, *rest):
         tried.extend(start.name.split()[0] for start in starts)
         tried.extend(start.weights[0] for start in starts if start.name.startswith("signs"))
         return original(starts[::5], *rest)
@@ -452,7 +452,7 @@ def names(monkeypatch, pair, easy, on=None, landmarks=NO_LANDMARKS, descriptors=
     original = candidates_module.refine_coarse
     with monkeypatch.context() as patch:
         patch.setattr(candidates_module, "SCORE", replace(SCORE, early_exit_score=easy))
-        patch.setattr(candidates_module, "refine_coarse", rough)
+        patch.setattr(candidates_module, "refine_coarse", coarse_map)
         patch.setattr(candidates_module, "refine_fine", fine)
         candidates(pair.source, pair.target, SMALL, on or pair.samples, 0, landmarks=landmarks, descriptors=descriptors)
     return set(tried), finalists[0]
@@ -471,10 +471,10 @@ def test_what_the_user_says_is_heard(monkeypatch, symmetric):
     shapes = symmetric.source, symmetric.target
     given = [np.random.default_rng(i).normal(size=(len(shape.mesh.vertices), 2)) for i, shape in enumerate(shapes)]
     assert "SHOT" in names(monkeypatch, symmetric, -np.inf, descriptors=tuple(given))[0]
-    marks = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
-    both = [sample_for_scoring(shape, landmarks=at) for shape, at in zip(shapes, marks.T, strict=True)]
-    led = two_level_samples(*shapes, (both[0], both[1]), marks)
-    assert "SHOT" in names(monkeypatch, symmetric, -np.inf, led, marks)[0]
+    landmark_vertices = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
+    both = [sample_for_scoring(shape, landmarks=at) for shape, at in zip(shapes, landmark_vertices.T, strict=True)]
+    led = two_level_samples(*shapes, (both[0], both[1]), landmark_vertices)
+    assert "SHOT" in names(monkeypatch, symmetric, -np.inf, led, landmark_vertices)[0]
 
 
 def test_rivals_make_nothing_clear():

@@ -145,10 +145,10 @@ def test_the_source_morphs_into_the_target(made: types.SimpleNamespace, tmp_path
     assert tree_of((tmp_path / "m.glb").read_bytes())["meshes"][0]["weights"] == [0.0]
     moved = read_mesh_file(tmp_path / "m.glb")
     run("export", made.map, "--morph", "-o", tmp_path / "m.ply")
-    bent = read_mesh_file(tmp_path / "m.ply").mesh
-    np.testing.assert_array_equal(bent.faces, made.pair.source.faces)
-    np.testing.assert_allclose(moved.mesh.vertices + moved.morphs["target"], bent.vertices, atol=1e-5)
-    inside = (bent.vertices - made.pair.target.vertices.mean(axis=0)) / np.sqrt(surface_area(made.pair.target))
+    registered = read_mesh_file(tmp_path / "m.ply").mesh
+    np.testing.assert_array_equal(registered.faces, made.pair.source.faces)
+    np.testing.assert_allclose(moved.mesh.vertices + moved.morphs["target"], registered.vertices, atol=1e-5)
+    inside = (registered.vertices - made.pair.target.vertices.mean(axis=0)) / np.sqrt(surface_area(made.pair.target))
     np.testing.assert_allclose(inside, 2 * made.pair.source.vertices, atol=1e-9)
 
 

@@ -58,17 +58,17 @@ def test_a_true_map_of_a_part_is_told_to_be_one(made: types.SimpleNamespace, tmp
     rows = [f"{f + 1} {a} {b} {c}" for f, (a, b, c) in zip(made.place.faces, made.place.weights.tolist(), strict=True)]
     dense = lines(tmp_path / "part.baryc_gt", rows)
 
-    def told(map: str, *words: object) -> dict:
+    def output(map: str, *words: object) -> dict:
         ran = run("evaluate", made.folder / map, "--truth-part", *words, "--json")
         assert (ran.status, ran.stderr) == (0, "")
         return json.loads(ran.stdout)
 
     areas = vertex_areas(made.whole)
-    down = told("down.npz", dense)
+    down = output("down.npz", dense)
     assert down["mean"] < 1e-6
     assert (down["matched"], down["overlap"], down["points"]) == (1.0, 1.0, len(made.part.vertices))
     assert down["missing"] == pytest.approx(1 - areas[made.common].sum() / areas.sum())
-    up = told("up.npz", dense, "--part", "source")
+    up = output("up.npz", dense, "--part", "source")
     assert up["mean"] < NEAR
     assert up["matched"] > 0.95
     assert up["overlap"] > 0.95
@@ -76,7 +76,7 @@ def test_a_true_map_of_a_part_is_told_to_be_one(made: types.SimpleNamespace, tmp
     corners = made.whole.faces[made.place.faces, made.place.weights.argmax(axis=1)]
     some = np.arange(0, len(corners), 7)
     listed = lines(tmp_path / "pairs.txt", [f"{corners[v]} {v}" for v in some])
-    few = told("down.npz", listed)
+    few = output("down.npz", listed)
     assert few["points"] == len(some)
     assert 0 < few["mean"] < 2 * NEAR
     shown = run("evaluate", made.folder / "down.npz", "--truth-part", dense).stdout

@@ -20,9 +20,9 @@ def heights(mesh: kfmaps.Mesh) -> NDArray[np.float64]:
 def test_a_script(tmp_path: Path) -> None:
     pair = two_poses(1500)
     config = replace(kfmaps.Config.single_fit(), refinement=kfmaps.ZoomOut(start=20, stop=50, step=10))
-    marks = np.stack([pair.truth[::200], np.arange(len(pair.truth))[::200]], axis=1)
+    landmark_vertices = np.stack([pair.truth[::200], np.arange(len(pair.truth))[::200]], axis=1)
     shapes = [kfmaps.prepare(mesh, config) for mesh in (pair.source, pair.target)]
-    result = kfmaps.match(shapes[0], shapes[1], config, landmarks=marks)
+    result = kfmaps.match(shapes[0], shapes[1], config, landmarks=landmark_vertices)
     result.save(tmp_path / "map.npz")
     loaded: kfmaps.Match = kfmaps.load_map(tmp_path / "map.npz")
     carried = kfmaps.transfer(heights(pair.source), loaded)

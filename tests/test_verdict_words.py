@@ -72,9 +72,9 @@ def test_the_summary_says_what_part_the_kernel_had() -> None:
     searched, once = _match(confidence=0.95), _match(score=MatchScore(initialization=ONE_FIT))
     assert _summary(searched)["kernel"] == "had no part in this map"
     assert _summary(replace(searched, fit=fitted))["kernel"] == "Gaussian(gamma=0.1235), in the initial map"
-    told = _summary(replace(once, fit=fitted))
-    assert told["fit"] == "Gaussian(gamma=0.1235), 30 features; converged in 7 steps"
-    assert "kernel" not in told
+    output = _summary(replace(once, fit=fitted))
+    assert output["fit"] == "Gaussian(gamma=0.1235), 30 features; converged in 7 steps"
+    assert "kernel" not in output
     learned = _summary(replace(searched, config=Config(kernel=Metric(matrix=((1.0, 2.0),)))))
     assert learned["kernel"] == "a search leaves the learned one out; --set search=none takes it"
 

@@ -107,10 +107,10 @@ def test_area_distortion_is_the_ratio_of_areas() -> None:
     grown = Mesh(7 * target.vertices, target.faces)
     assert np.abs(area_distortion(grown, target, identity)).max() < 1e-9
     # Summed over the target with the weights of the definition, the ratios give the source's whole area.
-    bent = Mesh(target.vertices * (1 + 0.3 * np.sin(target.vertices)), target.faces)
+    registered = Mesh(target.vertices * (1 + 0.3 * np.sin(target.vertices)), target.faces)
     weights = vertex_areas(unit_area(target))
-    assert weights @ 2 ** area_distortion(bent, target, identity) == pytest.approx(1, abs=1e-9)
-    assert np.ptp(area_distortion(bent, target, identity)) > 0.5
+    assert weights @ 2 ** area_distortion(registered, target, identity) == pytest.approx(1, abs=1e-9)
+    assert np.ptp(area_distortion(registered, target, identity)) > 0.5
     assert (area_distortion(target, target, np.zeros_like(identity)) == -4).all()
     assert np.isnan(area_distortion(Mesh(target.vertices, NO_FACES), target, identity)).all()
 
