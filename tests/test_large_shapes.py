@@ -161,7 +161,7 @@ def test_approximate_nearest_takes_empty_and_tiny_sets(rng):
     assert approximate_nearest(points, points).tolist() == [0]
     assert approximate_nearest(np.zeros((0, 40)), points).shape == (0,)
     assert set(approximate_nearest(np.ones((500, 40)), np.ones((3, 40)))) <= {0, 1, 2}
-    with pytest.raises(InvalidInput, match="probes"):
+    with pytest.raises(InvalidInput, match="n_probe"):
         approximate_nearest(points, points, n_probe=0)
 
 
