@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import to_numpy
 from kfmaps.matching.candidates import map_distance, rerefine
@@ -81,13 +82,22 @@ def support_of_landmarks(best: Candidate, samples: SamplePair) -> float:
     return landmark_support(errors, samples.landmark_evidence.distances, to_numpy(samples.source.samples.basis.mass))
 
 
-def still_contradicted(best: Candidate, samples: SamplePair, evidence: LandmarkEvidence | None) -> np.ndarray:
-    """Return which of all given landmarks the final candidate contradicts, (l,) bool.
+def final_landmark_errors(
+    best: Candidate, state: SearchState, landmarks: np.ndarray, evidence: LandmarkEvidence | None
+) -> np.ndarray:
+    """Return the errors (l,) of landmarks by the final candidate: those of its functions or, if less, its registration.
 
-    A landmark that a rough map of unlike shapes contradicts, on a tail say, may be right by the registered map, which
-    was made without it.
+    The functions alone may take a vertex at the end of a limb for one of another limb.
     """
-    if evidence is None:
-        return np.zeros(0, dtype=bool)
-    errors = landmark_errors(best.functional_map, samples.source.samples.basis.functions, evidence)
-    return errors > max_landmark_error(best.quality.calibrated_score)
+    if evidence is None or len(landmarks) == 0:
+        return np.zeros(0)
+    samples, registered = state.samples.fine.source.samples, best.registered_vertices
+    errors = landmark_errors(best.functional_map, samples.basis.functions, evidence)
+    if registered is None:
+        return errors
+    if best.swapped:
+        places, images = state.source.mesh.vertices[samples.vertices], registered[landmarks[:, 1]]
+    else:
+        places, images = registered[samples.vertices], state.proxies.image.mesh.vertices[landmarks[:, 1]]
+    nearest_samples = KDTree(places).query(images)[1]
+    return np.minimum(errors, evidence.distances[np.arange(len(landmarks)), nearest_samples])

@@ -47,8 +47,8 @@ from kfmaps.matching.candidates import (
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
-from kfmaps.matching.landmark_conflicts import contradicted_landmarks
-from kfmaps.matching.landmark_evidence import build_guidance, landmark_errors
+from kfmaps.matching.landmark_conflicts import contradicted_landmarks, final_landmark_errors
+from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.orientation import choose_orientation
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring
@@ -216,7 +216,9 @@ def _search_with_landmarks(
         if settled is not None and is_close:
             return settled
         ranked = rank(state)
-    result = _result(*_improve_best(replace(ranked, doubts=(*ranked.doubts, *doubts)), report))
+    if settled is None:  # else the map that seemed to contradict landmarks, once repaired, keeps to them
+        ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
+    result = _result(*_improve_best(ranked, report))
     return result if settled is None or result.verdict == "sure" else settled
 
 
@@ -227,19 +229,18 @@ def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[Sea
     closely that maps which begin with them would be no better. Of shapes so unlike that maps are repaired none would.
     Where all landmarks are rejected it is the result whatever its verdict.
     """
-    best, evidence = found and found._search, state.samples.fine.landmark_evidence
+    best = found and found._search
     if found is None or best is None or found.quality is None or found.orientation != state.orientation:
         return None, False
     if found.verdict != "sure" and not state.rejected.all():
         return None, False
-    errors = np.zeros(1)
-    if evidence is not None:
-        errors = landmark_errors(found.functional_map, state.samples.fine.source.samples.basis.functions, evidence)
+    evidence = state.samples.fine.landmark_evidence
+    errors = final_landmark_errors(best.ranked[0], state, state.landmarks[~state.rejected], evidence)
     if (errors > max_landmark_error(found.quality)).any():
         return None, False
     marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)
-    is_close = found.quality < SCORE.repair_score or float(errors.mean()) <= SCORE.max_mean_landmark_error
-    is_close = is_close and float(errors.max()) <= SCORE.max_isometric_landmark_error
+    is_close = found.quality < SCORE.repair_score or errors.sum() <= len(errors) * SCORE.max_mean_landmark_error
+    is_close = is_close and errors.max(initial=0.0) <= SCORE.max_isometric_landmark_error
     return _result(replace(marked, samples=state.samples), found.retries), is_close
 
 

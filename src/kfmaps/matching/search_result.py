@@ -13,9 +13,9 @@ from kfmaps.fmap.zoomout import MAX_CANDIDATES, MAX_EXACT_PAIRS
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
-from kfmaps.matching.landmark_conflicts import still_contradicted, support_of_landmarks
+from kfmaps.matching.landmark_conflicts import final_landmark_errors, support_of_landmarks
 from kfmaps.matching.registration_refine import SwappedRepair
-from kfmaps.matching.score import SCORE, Candidate, is_near_isometric, probability, verdict
+from kfmaps.matching.score import SCORE, Candidate, is_near_isometric, max_landmark_error, probability, verdict
 from kfmaps.matching.search_state import SearchState
 from kfmaps.matching.solve import Fit
 
@@ -68,7 +68,9 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     alternatives = [*(c for c, _ in doubts), *rest][: config.search.n_alternatives]
     scores = [best.score, *(best.score - margin for _, margin in doubts), *(c.score for c in rest)]
     evidence, quality = calibrated_evidence(state, best, rest), best.quality.calibrated_score
-    rejected = state.rejected & (state.rejected.all() | still_contradicted(best, samples, state.evidence))
+    # A landmark that a rough map contradicts, on a tail say, may be right by the registered map made without it.
+    errors = final_landmark_errors(best, state, state.landmarks, state.evidence)
+    rejected = state.rejected & (state.rejected.all() | (errors > max_landmark_error(quality)))
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in alternatives]
     unlike = not is_near_isometric(quality)
     return SearchResult(
