@@ -472,7 +472,7 @@ def test_a_search_tells_what_else_may_turn_out_better(creature_pair, monkeypatch
     assert [search_module.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
 
 
-@pytest.mark.parametrize(("told", "alone"), [("sure", True), ("likely", False)])
+@pytest.mark.parametrize(("output", "alone"), [("sure", True), ("likely", False)])
 def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypatch, output, alone):
     found = score_maps([Start("0", creature_pair.C), Start("1", astray)], creature_pair.fine)
     ranked = [replace(c, deformation_energy=1.0) for c in found]

@@ -77,7 +77,7 @@ def test_without_faces_it_is_a_point_cloud() -> None:
 
 
 @pytest.mark.parametrize(
-    ("shape", "told"),
+    ("shape", "message"),
     [
         (3, "got int"),
         ("no-such.off", "no-such.off"),
@@ -226,7 +226,7 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(
-    ("call", "told"),
+    ("call", "message"),
     [
         (lambda: kfmaps.match(MESH, MESH, "paper"), "config: expected a Config, got str"),  # pyright: ignore
         (lambda: kfmaps.prepare("a.off", 3), "config"),  # pyright: ignore

@@ -114,7 +114,7 @@ def test_required_verdicts() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "output"),
     [
         (["matsch"], "No such command 'matsch'"),
         (["info"], "Missing argument 'MESH'; see kfmaps info --help"),
@@ -131,7 +131,7 @@ def test_usage_is_one_line(words: list[str], output: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("raised", "told"),
+    ("raised", "output"),
     [
         (InvalidInput("expected\nthis"), "expected this"),
         (MissingDependency("no PyTorch"), "no PyTorch"),

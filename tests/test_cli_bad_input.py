@@ -69,7 +69,7 @@ def test_meshes(case: str, side: str, made: types.SimpleNamespace) -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "words", "told"),
+    ("content", "words", "message"),
     [
         ("0 0\n1 100\n", (), "0 to 99"),
         ("0 0\n1 5\n2 5\n", (), "5 repeated"),
@@ -139,7 +139,7 @@ def test_settings(made: types.SimpleNamespace) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "message"),
     [("m.xlsx", ".npz"), ("m", "no extension"), ("none/m.npz", "an existing folder"), ("folder.npz", "a folder")],
 )
 @pytest.mark.usefixtures("no_work")

@@ -74,7 +74,7 @@ def test_picture(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "output"),
     [
         (["--shape", "cube"], ", ".join(_SHAPES)),
         (["--vertices", "10"], "1500 to 300000"),

@@ -70,7 +70,7 @@ def test_settings_go_through_pipes(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "data", "told"),
+    ("words", "data", "output"),
     [
         (["match", "-", "-"], b"OFF", "standard input: expected one file, got 2 times -. Name the other files."),
         (["info", "-"], b"", "standard input: expected a file, got nothing. Send one, or name it."),

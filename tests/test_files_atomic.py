@@ -88,7 +88,7 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "output"),
     [
         ("none/a.txt", "existing folder"),
         ("", "a folder"),

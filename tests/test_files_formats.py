@@ -266,7 +266,7 @@ def test_oddities_warn_and_are_kept(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("places", "faces", "told"),
+    ("places", "faces", "output"),
     [
         (np.random.default_rng(0).normal(size=(5, 3)), [[0, 1, 2], [1, 0, 3], [0, 1, 4]], "1 non-manifold edge,"),
         (np.random.default_rng(0).normal(size=(6, 3)), [[0, 1, 2], [3, 4, 5]], "2 components"),

@@ -113,7 +113,7 @@ HEAD = b"# vtk DataFile Version 3.0\nv\nASCII\nDATASET "
 
 
 @pytest.mark.parametrize(
-    ("name", "data", "told"),
+    ("name", "data", "output"),
     [
         ("a.vtk", b"ply\n", "another beginning"),
         ("a.vtk", HEAD + b"UNSTRUCTURED_GRID\n", "got UNSTRUCTURED_GRID. Save the surface as PLY"),

@@ -80,7 +80,9 @@ def test_slicer_json(tmp_path: Path) -> None:
         read_landmark_sets(touch(tmp_path / "s.mrk.json", json.dumps(content)))
 
 
-@pytest.mark.parametrize(("space", "told"), [("0", "RAS"), ("1", "LPS"), ("LPS", "LPS"), ("RAS", "RAS"), (None, "RAS")])
+@pytest.mark.parametrize(
+    ("space", "output"), [("0", "RAS"), ("1", "LPS"), ("LPS", "LPS"), ("RAS", "RAS"), (None, "RAS")]
+)
 def test_slicer_fcsv(tmp_path: Path, space: str | None, output: str) -> None:
     head = "# Markups fiducial file version = 4.11\n" + (f"# CoordinateSystem = {space}\n" if space else "")
     columns = "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n"
@@ -138,7 +140,7 @@ def test_wide_tables_have_titles_that_r_takes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "told"),
+    ("name", "text", "output"),
     [
         ("a.txt", "1 2 3\n", "one of .mrk.json"),
         ("a.tps", "LM3=3\n1 2 3\n", "3 points"),
@@ -211,7 +213,7 @@ def test_coordinate_systems_are_brought_together() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "output"),
     [
         ([-1, 1, 1], "with x negated: the mesh is a mirror image"),
         ([1, 1, -1], "with z negated: the mesh is a mirror image"),

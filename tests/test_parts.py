@@ -204,7 +204,7 @@ def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
 
 
 @pytest.mark.parametrize(
-    ("scale", "told"),
+    ("scale", "output"),
     [
         (0.9, "the target is a part, 81% of the other's area; because"),
         (0.97, "the target has holes (6% is missing)"),
@@ -384,7 +384,7 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
 
 
 @pytest.mark.parametrize(
-    ("word", "told", "opening", "asked", "whole", "expected", "steps"),
+    ("word", "output", "opening", "asked", "whole", "expected", "steps"),
     [
         ("sure", 0.95, 0.05, "auto", "sure", "part", ["clear"]),
         ("ambiguous", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole"]),
@@ -425,7 +425,7 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
 
 
 @pytest.mark.parametrize(
-    ("word", "asked", "scale", "told", "scale_of_opposite", "expected"),
+    ("word", "asked", "scale", "output", "scale_of_opposite", "expected"),
     [
         ("ambiguous", "auto", 0.7, 0.7, 0.8, "opposite"),
         ("ambiguous", "auto", 0.7, 0.5, 0.8, "part"),  # less likely than the part

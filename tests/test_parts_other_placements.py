@@ -126,7 +126,7 @@ def test_landmarks_are_trusted_wherever_they_are():
 
 
 @pytest.mark.parametrize(
-    ("longer", "marks", "end"),
+    ("longer", "landmarks", "end"),
     [(0.01, 0, MIN_SCALE), (0.01, 2, MIN_MARKED_SCALE), (100.0, 0, MAX_SCALE), (1.0, 0, SCALE)],
 )
 def test_a_part_neither_vanishes_nor_outgrows_the_whole(monkeypatch, longer: float, landmarks: int, end: float) -> None:

@@ -22,7 +22,7 @@ from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
-from kfmaps.matching.score import SCORE
+from kfmaps.matching.score import SCORE, max_landmark_error
 from kfmaps.matching.search_result import build_result
 from kfmaps.registration import alternating_registration as alternating_module
 from kfmaps.registration import evidence
@@ -256,7 +256,7 @@ def test_what_is_far_behind_is_not_looked_at(creature_pair):
 
 
 @pytest.mark.parametrize(
-    ("told", "errors", "quality", "orientation", "outcome"),
+    ("word", "errors", "quality", "orientation", "outcome"),
     [
         ("sure", [0.0, 0.05], -4.0, "preserving", "settled"),
         ("sure", [0.0, 0.051], -4.0, "preserving", "led"),
@@ -271,9 +271,9 @@ def test_what_is_far_behind_is_not_looked_at(creature_pair):
     ],
 )
 def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
-    monkeypatch, creatures, output, errors, quality, orientation, outcome
+    monkeypatch, creatures, word, errors, quality, orientation, outcome
 ):
-    """``told``: the verdict without landmarks; with "less" a map that landmarks have led to is less sure."""
+    """``word``: the verdict without landmarks; with "less" a map that landmarks have led to is less sure."""
     source, target, truth = creatures
     landmark_vertices = np.stack([truth[[5, 700]], [5, 700]], axis=1)
     asked, ranked, improved = [], [], []
@@ -287,7 +287,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         return replace(state, ranked=state.candidates)
 
     def made(state, best, rest):
-        verdict = output if output != "less" else "sure" if best.name == "free" else "likely"
+        verdict = word if word != "less" else "sure" if best.name == "free" else "likely"
         fields = {"verdict": verdict, "quality": quality, "orientation": orientation}
         return replace(build_result(state, best, rest), **fields)
 
@@ -296,8 +296,10 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     monkeypatch.setattr(search, "_rank", rank)
     monkeypatch.setattr(search, "_improve_best", lambda state, _report: improved.append(state) or (state, ()))
     monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=-np.inf))
-    monkeypatch.setattr(search, "contradicted_landmarks", lambda _state: (np.zeros(2, dtype=bool), ()))
-    monkeypatch.setattr(search, "landmark_errors", lambda *_: np.array(errors))
+    monkeypatch.setattr(
+        search, "contradicted_landmarks", lambda state: (np.zeros(2, dtype=bool), ((state.ranked[0], 0.3),))
+    )
+    monkeypatch.setattr(search, "final_landmark_errors", lambda *_: np.array(errors))
     result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     samples, how = asked[0]
     assert how.get("landmarks") is None
@@ -312,6 +314,8 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     assert result.initialization == ("led" if outcome == "led" else "free")
     if outcome == "settled":
         return
+    keeps = word != "likely" and orientation == "preserving" and max(errors) <= max_landmark_error(quality)
+    assert len(improved[-1].doubts) == (0 if keeps else 1), "a sure map that keeps to landmarks casts no doubt on them"
     np.testing.assert_array_equal(asked[1][1]["landmarks"], landmark_vertices)
     assert asked[1][0].fine.landmark_cost is not None
     assert [c.name for c in ranked[1].candidates] == ["led", "free"]
