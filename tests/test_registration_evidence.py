@@ -97,7 +97,7 @@ def test_both_directions_count_unless_one_falls_apart(creature_pair, monkeypatch
 
 def test_a_proxy_that_falls_apart_has_no_shot_error(creature_pair, monkeypatch):
     class Broken:
-        def registered(self, *_what):
+        def register_vertices(self, *_what):
             raise NotConverged("it fell apart")
 
     monkeypatch.setattr(evidence, "FIT", Broken())
