@@ -932,6 +932,11 @@ MUTANTS = tuple(
             "rejected = state.rejected | (state.rejected.all() | (errors",
             "test_landmark_evidence -k rejected_no_longer",
         ),
+        (
+            "np.minimum(errors, evidence.distances[",
+            "np.maximum(errors, evidence.distances[",
+            "test_landmark_evidence -k final_landmark_errors",
+        ),
         ("return share**2 * float(", "return share * float(", "test_score -k landmarks_support"),
         (
             "gain > SCORE.close_margin or not (contradicted",

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
 
 import kfmaps
 from conftest import SMALL, blob, functional_map
@@ -20,7 +21,7 @@ from kfmaps.matching import landmark_conflicts, match, registration_refine, sear
 from kfmaps.matching import search as search_module
 from kfmaps.matching.candidates import rerefine, score_maps
 from kfmaps.matching.initial_maps import Start
-from kfmaps.matching.landmark_conflicts import ignore_landmarks, support_of_landmarks
+from kfmaps.matching.landmark_conflicts import final_landmark_errors, ignore_landmarks, support_of_landmarks
 from kfmaps.matching.landmark_evidence import (
     LANDMARK_WEIGHT,
     LANDMARK_WEIGHT_UNLIKE,
@@ -51,13 +52,13 @@ def spread_out(creatures: Any, count: int) -> np.ndarray:
     return np.stack([creatures[2][rows], rows], axis=1)
 
 
-def copies(creatures: Any, *counts: int) -> Any:
-    """Coarse copies of both, of so many vertices."""
+def coarse_proxies(creatures: Any, *counts: int) -> Any:
+    """Coarse proxies of both, of so many vertices."""
     return [shape_proxy(shape, count) for shape, count in zip(creatures[:2], counts, strict=True)]
 
 
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A search finds the true map alone, and mends nothing."""
+    """A search finds the true map alone, and repairs nothing."""
     C = functional_map(creatures[2], *creatures[:2])
     monkeypatch.setattr(search_module, "candidates", lambda *a, **_m: score_maps([Start("a", C)], a[3].fine))
     monkeypatch.setattr(search_module, "SCORE", replace(SCORE, repair_score=-np.inf))
@@ -74,11 +75,11 @@ def slid(creatures: Any) -> np.ndarray:
 
 
 def given(creatures: Any, count: int) -> Any:
-    """The ground on which maps between the creatures are judged with so many landmarks."""
+    """Samples on which maps between the creatures are scored with so many landmarks."""
     source, target, _ = creatures
     at = spread_out(creatures, count)
-    judges = sample_for_scoring(source, 300, landmarks=at[:, 0]), sample_for_scoring(target, 300, landmarks=at[:, 1])
-    return two_level_samples(source, target, judges, at).fine
+    samples = sample_for_scoring(source, 300, landmarks=at[:, 0]), sample_for_scoring(target, 300, landmarks=at[:, 1])
+    return two_level_samples(source, target, samples, at).fine
 
 
 def test_a_map_is_supported_by_landmarks_that_did_not_guide_it(creatures, slid) -> None:
@@ -125,10 +126,35 @@ def test_a_landmark_that_the_map_keeps_to_is_rejected_no_longer(creatures, monke
     np.testing.assert_array_equal(found.landmarks, np.delete(at, 1, axis=0))
 
 
+def test_final_landmark_errors_are_those_of_functions_or_of_the_registration(creatures) -> None:
+    """Whichever are less; the registration may be of either shape onto the other."""
+    source, target, truth = creatures
+    at, fine = spread_out(creatures, 10), given(creatures, 10)
+    state: Any = SimpleNamespace(
+        source=source, samples=SimpleNamespace(fine=fine), proxies=SimpleNamespace(image=target)
+    )
+    onto_source = source.mesh.vertices[truth]
+    onto_target = target.mesh.vertices[KDTree(onto_source).query(source.mesh.vertices)[1]]
+    right = functional_map(truth, source, target)
+    wrong = np.linalg.qr(np.random.default_rng(0).normal(size=right.shape))[0]
+    far = np.roll(onto_source, 700, axis=0)
+
+    def errors(C: np.ndarray, registered: np.ndarray | None, swapped: bool) -> np.ndarray:
+        best: Any = SimpleNamespace(functional_map=C, registered_vertices=registered, swapped=swapped)
+        return final_landmark_errors(best, state, at, fine.landmark_evidence)
+
+    assert errors(wrong, None, False).mean() > 0.3
+    for C, registered, swapped in ((right, None, False), (right, far, True), (wrong, onto_source, True)):
+        assert errors(C, registered, swapped).max() < 0.12
+    assert errors(wrong, onto_target, False).max() < 0.12
+    assert errors(wrong, far, True).mean() > 0.3
+    assert len(final_landmark_errors(state, state, at[:0], fine.landmark_evidence)) == 0
+
+
 def test_proxies_have_the_vertices_nearest_to_landmarks(creatures) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 30)
-    a, b = copies(creatures, 500, 400)
+    a, b = coarse_proxies(creatures, 500, 400)
     on = proxy_pair(source, target, (a, b))
     landmark_vertices = on.nearest(at)
     for side, (shape, copy) in enumerate(((source, a), (target, b))):
@@ -146,7 +172,7 @@ def test_proxies_have_the_vertices_nearest_to_landmarks(creatures) -> None:
 
 def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None:
     source, target, truth = creatures
-    a, b = copies(creatures, 500, 500)
+    a, b = coarse_proxies(creatures, 500, 500)
     on = proxy_pair(source, target, (a, b))
     rows = stratified_vertices(target.basis, 1200, 0)
     rows = rows[np.isin(rows, b.vertices) & np.isin(truth[rows], a.vertices)][:12]
