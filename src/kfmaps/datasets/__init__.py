@@ -129,9 +129,9 @@ def non_isometric(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
-    unbent, bent = with_proportions({}), with_proportions(DANCE)
+    straight, posed = with_proportions({}), with_proportions(DANCE)
     counts = _counts(vertices)
-    return posed_pair("non-isometric", Body(CREATURE), WAVE, bent, counts, rng, unbent_t=unbent)
+    return posed_pair("non-isometric", Body(CREATURE), WAVE, posed, counts, rng, unbent_t=straight)
 
 
 def partial(vertices: int = 6000, rng: _Seed = 0, kept: float = 0.6) -> ExamplePair:

@@ -168,7 +168,7 @@ def write_morph(path: str | Path, source: MeshFile, target: Mesh, registered: np
     """
     check(
         np.asarray(registered),
-        "bent",
+        "registered_vertices",
         shape=(len(source.mesh.vertices), 3),
         remedy="check that the map is the source's",
     )

@@ -61,7 +61,7 @@ def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[Extre
 
 
 def compare_exchanged(best: Candidate, pair: SamplePair, proxies: ProxyCache) -> list[Candidate]:
-    """Return the map and the best one with two limbs exchanged, the better first, judged by the same evidence.
+    """Return the map and the best one with two limbs exchanged, the better first, scored by the same evidence.
 
     Return the map alone where no exchange has nearly as good a score.
     """

@@ -19,7 +19,7 @@ ONE_FIT = "one fit"
 
 @dataclass(frozen=True, eq=False)
 class MatchScore:
-    """How a search judged its map.
+    """How a search scored its map.
 
     Attributes
     ----------
