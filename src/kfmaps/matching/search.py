@@ -281,7 +281,7 @@ def _repaired(candidate: Candidate, state: SearchState) -> Candidate:
 def _repair_rivals(state: SearchState) -> SearchState:
     """Repair the candidates that are as good as the best but for their deformation, and rank them again.
 
-    A map that is as good everywhere but in one limb, which is turned, is a rival to the best only when that is repaired.
+    A map that is as good but for one turned limb is a rival to the best only when that is repaired.
     """
     (best, *rest), proxies = state.ranked, state.proxies
     near = N_REGISTERED - 1
