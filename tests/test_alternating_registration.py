@@ -1,4 +1,4 @@
-"""Shapes that differ much, bent and matched in turn."""
+"""Shapes that differ much, registered and refined in turn."""
 
 from __future__ import annotations
 
@@ -146,7 +146,7 @@ def test_repairs_report_their_progress(creature_pair, monkeypatch):
     monkeypatch.setattr(registration_refine, "match_extremities", lambda *_: [])
     calls = []
     repaired(creature_pair, creature_pair.right, progress=lambda *what: calls.append(what))
-    assert calls == [("bent and matched in turn", done) for done in (0.0, 0.5, 1.0)]
+    assert calls == [("registered and refined in turn", done) for done in (0.0, 0.5, 1.0)]
 
 
 def test_the_target_is_registered_and_the_source_where_that_is_asked_for(creature_pair, monkeypatch):

@@ -20,7 +20,7 @@ import numpy as np
 import psutil
 import pytest
 import threadpoolctl
-from distributed.scheduler import NoWorkerError
+from distributed.scheduler import NoValidWorkerError, NoWorkerError
 
 from collecting import CONFIG, Deadly, done, plan_of, write_collection
 from kfmaps._arrays import InvalidInput
@@ -349,9 +349,12 @@ def test_workers_that_are_lost_on_the_way(tmp_path: Path, monkeypatch: pytest.Mo
             pool.map("numbers", abs, [-1, -2])
 
 
-def test_the_last_worker_may_die_before_it_hands_over_what_it_has_made(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("error", [NoWorkerError("abs", 1), NoValidWorkerError("abs", set(), set(), {}, 1)])
+def test_the_last_worker_may_die_before_it_hands_over_what_it_has_made(
+    monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
     async def lost(*_: object, **__: object) -> None:
-        raise NoWorkerError("abs", 1)
+        raise error
 
     with WorkerPool(1) as pool:
         assert pool.map("numbers", abs, [-1, -2]) == [1, 2]

@@ -68,7 +68,7 @@ def test_summary_for_people(first: tuple[Ran, kfmaps.Match]) -> None:
     shown = " ".join(ran.stdout.split())
     for text in (
         "matched a.off (300 vertices) → b.off (300 vertices)",
-        "verdict Landmarks. One fit, led by the landmarks",
+        "verdict Landmarks. One fit, guided by the landmarks",
         "landmarks 6",
         "Gaussian(gamma=",
         "features; converged in",

@@ -1,4 +1,4 @@
-"""Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed, bent and answered."""
+"""Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed and registered."""
 
 from dataclasses import replace
 from types import SimpleNamespace

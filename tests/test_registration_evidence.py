@@ -17,13 +17,14 @@ from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching import ranking, registration_refine, search
+from kfmaps.matching import ranking, registration_refine, search, search_result
 from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
 from kfmaps.matching.score import SCORE, max_landmark_error
 from kfmaps.matching.search_result import build_result
+from kfmaps.matching.search_state import SearchState
 from kfmaps.registration import alternating_registration as alternating_module
 from kfmaps.registration import evidence
 from kfmaps.registration.alternating_registration import proxy_pair
@@ -276,7 +277,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     """``word``: the verdict without landmarks; with "less" a map that landmarks have led to is less sure."""
     source, target, truth = creatures
     landmark_vertices = np.stack([truth[[5, 700]], [5, 700]], axis=1)
-    asked, ranked, improved = [], [], []
+    asked, ranked, improved, compared = [], [], [], []
 
     def few(*what, **how):
         asked.append((what[3], how))
@@ -300,6 +301,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         search, "contradicted_landmarks", lambda state: (np.zeros(2, dtype=bool), ((state.ranked[0], 0.3),))
     )
     monkeypatch.setattr(search, "final_landmark_errors", lambda *_: np.array(errors))
+    monkeypatch.setattr(search, "_better_result", lambda *what: compared.append(what))
     result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     samples, how = asked[0]
     assert how.get("landmarks") is None
@@ -315,6 +317,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     if outcome == "settled":
         return
     keeps = word != "likely" and orientation == "preserving" and max(errors) <= max_landmark_error(quality)
+    assert [found.initialization for found, *_ in compared] == ([] if keeps else ["free"])
     assert len(improved[-1].doubts) == (0 if keeps else 1), "a sure map that keeps to landmarks casts no doubt on them"
     np.testing.assert_array_equal(asked[1][1]["landmarks"], landmark_vertices)
     assert asked[1][0].fine.landmark_cost is not None
@@ -326,6 +329,60 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         improved.clear()
         search.search_map(source, target, kfmaps.Config(), landmarks=at)
         assert len(improved) == count
+
+
+@pytest.mark.parametrize(
+    ("verdict", "gain", "errors", "rejected"),
+    [
+        ("sure", 1.5, [0.4, 0.4, 0.0], [True, True, True]),
+        ("sure", 1.5, [0.4, 0.0, 0.0], [True, False, False]),
+        ("likely", 1.5, [0.4, 0.4, 0.0], [True, True, True]),
+        ("likely", 1.5, [0.4, 0.0, 0.0], None),
+        ("ambiguous", 1.5, [0.4, 0.4, 0.0], None),
+        ("sure", 0.5, [0.4, 0.4, 0.0], None),
+    ],
+)
+def test_a_repaired_map_without_landmarks_that_is_clearly_better_rejects_them(
+    monkeypatch, creature_pair, verdict, gain, errors, rejected
+):
+    """Most of those that it contradicts, all; where a likely one contradicts few, landmarks are kept."""
+    pair, right = creature_pair, creature_pair.right
+    landmarks = np.stack([pair.truth[[5, 300, 700]], [5, 300, 700]], axis=1)
+    config, nobody = replace(kfmaps.Config(), threads=1), np.zeros(3, dtype=bool)
+    samples = pair.samples
+    worse = replace(
+        right, quality=replace(right.quality, distortion=right.quality.distortion + gain / SCORE.w_distortion)
+    )
+    free: Any = SearchState(
+        pair.source,
+        pair.target,
+        config,
+        landmarks[:0],
+        None,
+        nobody[:0],
+        samples,
+        pair.proxies,
+        [],
+        [right],
+        "preserving",
+    )
+    given = replace(free, landmarks=landmarks, rejected=nobody)
+    found = replace(build_result(free, right, []), verdict=verdict, quality=-9.0)
+    guided = build_result(replace(free, ranked=[worse]), worse, [])
+    monkeypatch.setattr(search, "drop_landmarks", lambda samples, _rejected: samples)
+
+    def landmark_errors(_best, _state, at, _evidence):
+        return np.array(errors)[len(errors) - len(at) :]
+
+    for module in (search, search_result):
+        monkeypatch.setattr(module, "final_landmark_errors", landmark_errors)
+    result: Any = search._better_result(found, guided, given)
+    if rejected is None:
+        assert result is None
+    else:
+        assert result._search.rejected.tolist() == rejected
+        assert result.initialization == "truth"
+    assert search._better_result(None, guided, given) is None
 
 
 @pytest.mark.parametrize("rejects", [[True, True], [True, False]])

@@ -114,7 +114,7 @@ class WorkerPool:
         of a dead worker, so an item that has not begun :data:`MAX_DEATHS` times is tried again.
         """
         from distributed import CancelledError, KilledWorker, as_completed
-        from distributed.scheduler import NoWorkerError
+        from distributed.scheduler import NoValidWorkerError, NoWorkerError
 
         client = self.client
         finished = as_completed(loop=client.loop)
@@ -139,7 +139,7 @@ class WorkerPool:
                 except CancelledError:
                     remedy = "run the same command again to go on"
                     raise refuse("scheduler", "an answer", "none any more", remedy) from None
-                except NoWorkerError:
+                except (NoWorkerError, NoValidWorkerError):
                     got = f"none for {NO_WORKERS}"
                     raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from None
                 except KilledWorker as error:

@@ -47,7 +47,12 @@ from kfmaps.matching.candidates import (
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
-from kfmaps.matching.landmark_conflicts import contradicted_landmarks, final_landmark_errors
+from kfmaps.matching.landmark_conflicts import (
+    all_if_most,
+    contradicted_landmarks,
+    final_landmark_errors,
+    without_landmark_errors,
+)
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.orientation import choose_orientation
@@ -205,6 +210,7 @@ def _search_with_landmarks(
             )
         return _rank(replace(state, candidates=[*guided, *free], without_landmarks=free))
 
+    given = state
     settled, is_close = _settled_result(found, state)
     if settled is not None and is_close:
         return settled
@@ -219,7 +225,26 @@ def _search_with_landmarks(
     if settled is None:  # else the map that seemed to contradict landmarks, once repaired, keeps to them
         ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
     result = _result(*_improve_best(ranked, report))
+    settled = settled or _better_result(found, result, given)
     return result if settled is None or result.verdict == "sure" else settled
+
+
+def _better_result(found: SearchResult | None, result: SearchResult, state: SearchState) -> SearchResult | None:
+    """Return ``found``, the result without landmarks, if it is clearly better than the one that landmarks have led to.
+
+    Then it rejects those that it contradicts, as in :func:`contradicted_landmarks`. Of unlike shapes only repaired maps
+    show which is better. ``state``: before the search, with all landmarks.
+    """
+    free, guided = found and found._search, result._search
+    if found is None or free is None or guided is None or found.verdict not in ("sure", "likely"):
+        return None
+    best = free.ranked[0]
+    gain = without_landmark_errors(best).score - without_landmark_errors(guided.ranked[0]).score
+    if gain <= SCORE.close_margin:
+        return None
+    errors = final_landmark_errors(best, state, state.landmarks, state.evidence)
+    rejected = all_if_most(errors > max_landmark_error(best.quality.calibrated_score))
+    return _settled_result(found, replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected)))[0]
 
 
 def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[SearchResult | None, bool]:
