@@ -334,18 +334,17 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
 @pytest.mark.parametrize(
     ("verdict", "gain", "errors", "rejected"),
     [
-        ("sure", 1.5, [0.4, 0.4, 0.0], [True, True, True]),
-        ("sure", 1.5, [0.4, 0.0, 0.0], [True, False, False]),
-        ("likely", 1.5, [0.4, 0.4, 0.0], [True, True, True]),
-        ("likely", 1.5, [0.4, 0.0, 0.0], None),
-        ("ambiguous", 1.5, [0.4, 0.4, 0.0], None),
-        ("sure", 0.5, [0.4, 0.4, 0.0], None),
+        ("sure", 1.5, [0.4, 0.4, 0.0], True),
+        ("likely", 1.5, [0.4, 0.4, 0.0], True),
+        ("sure", 1.5, [0.4, 0.0, 0.0], False),
+        ("ambiguous", 1.5, [0.4, 0.4, 0.0], False),
+        ("sure", 0.5, [0.4, 0.4, 0.0], False),
     ],
 )
 def test_a_repaired_map_without_landmarks_that_is_clearly_better_rejects_them(
     monkeypatch, creature_pair, verdict, gain, errors, rejected
 ):
-    """Most of those that it contradicts, all; where a likely one contradicts few, landmarks are kept."""
+    """Where it contradicts most; a landmark that it misses alone may be right."""
     pair, right = creature_pair, creature_pair.right
     landmarks = np.stack([pair.truth[[5, 300, 700]], [5, 300, 700]], axis=1)
     config, nobody = replace(kfmaps.Config(), threads=1), np.zeros(3, dtype=bool)
@@ -377,10 +376,9 @@ def test_a_repaired_map_without_landmarks_that_is_clearly_better_rejects_them(
     for module in (search, search_result):
         monkeypatch.setattr(module, "final_landmark_errors", landmark_errors)
     result: Any = search._better_result(found, guided, given)
-    if rejected is None:
-        assert result is None
-    else:
-        assert result._search.rejected.tolist() == rejected
+    assert (result is not None) == rejected
+    if rejected:
+        assert result._search.rejected.all()
         assert result.initialization == "truth"
     assert search._better_result(None, guided, given) is None
 

@@ -47,20 +47,14 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     free, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
     if verdict(free.quality.calibrated_score, margin, free.deformation_energy) not in ("sure", "likely"):
         return rejected, ()
-    errors_of_free = ignore_landmarks(free, samples).landmark_errors
-    contradicted = all_if_most(errors_of_free > max_landmark_error(free.quality.calibrated_score))
+    contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
+    if 2 * contradicted.sum() > len(contradicted):
+        # Where left and right were exchanged, landmarks near the middle would mislead too.
+        contradicted = np.ones(len(contradicted), dtype=bool)
     gain = without_landmark_errors(free).score - without_landmark_errors(best).score
     if gain > SCORE.close_margin or not (contradicted & (errors <= limit)).any():
         return contradicted, ()
     return rejected, ((free, -gain),)
-
-
-def all_if_most(contradicted: np.ndarray) -> np.ndarray:
-    """Return which landmarks (l,) bool to reject of those that a map contradicts: all where most are.
-
-    Where left and right were exchanged, landmarks near the middle would mislead too.
-    """
-    return np.ones_like(contradicted) if 2 * contradicted.sum() > len(contradicted) else contradicted
 
 
 def rank_by_surface(state: SearchState) -> list[Candidate]:

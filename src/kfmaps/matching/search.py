@@ -48,7 +48,6 @@ from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
 from kfmaps.matching.landmark_conflicts import (
-    all_if_most,
     contradicted_landmarks,
     final_landmark_errors,
     without_landmark_errors,
@@ -232,18 +231,19 @@ def _search_with_landmarks(
 def _better_result(found: SearchResult | None, result: SearchResult, state: SearchState) -> SearchResult | None:
     """Return ``found``, the result without landmarks, if it is clearly better than the one that landmarks have led to.
 
-    Then it rejects those that it contradicts, as in :func:`contradicted_landmarks`. Of unlike shapes only repaired maps
-    show which is better. ``state``: before the search, with all landmarks.
+    It must contradict most of them, as where left and right were exchanged, and rejects all. Of unlike shapes only
+    repaired maps show which is better. ``state``: before the search, with all landmarks.
     """
     free, guided = found and found._search, result._search
     if found is None or free is None or guided is None or found.verdict not in ("sure", "likely"):
         return None
     best = free.ranked[0]
     gain = without_landmark_errors(best).score - without_landmark_errors(guided.ranked[0]).score
-    if gain <= SCORE.close_margin:
-        return None
     errors = final_landmark_errors(best, state, state.landmarks, state.evidence)
-    rejected = all_if_most(errors > max_landmark_error(best.quality.calibrated_score))
+    contradicted = errors > max_landmark_error(best.quality.calibrated_score)
+    if gain <= SCORE.close_margin or 2 * contradicted.sum() <= len(contradicted):
+        return None
+    rejected = np.ones(len(contradicted), dtype=bool)
     return _settled_result(found, replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected)))[0]
 
 
