@@ -131,7 +131,11 @@ def test_final_landmark_errors_are_those_of_functions_or_of_the_registration(cre
     source, target, truth = creatures
     at, fine = spread_out(creatures, 10), given(creatures, 10)
     state: Any = SimpleNamespace(
-        source=source, samples=SimpleNamespace(fine=fine), proxies=SimpleNamespace(image=target)
+        source=source,
+        landmarks=at,
+        evidence=fine.landmark_evidence,
+        samples=SimpleNamespace(fine=fine),
+        proxies=SimpleNamespace(image=target),
     )
     onto_source = source.mesh.vertices[truth]
     onto_target = target.mesh.vertices[KDTree(onto_source).query(source.mesh.vertices)[1]]
@@ -141,14 +145,15 @@ def test_final_landmark_errors_are_those_of_functions_or_of_the_registration(cre
 
     def errors(C: np.ndarray, registered: np.ndarray | None, swapped: bool) -> np.ndarray:
         best: Any = SimpleNamespace(functional_map=C, registered_vertices=registered, swapped=swapped)
-        return final_landmark_errors(best, state, at, fine.landmark_evidence)
+        return final_landmark_errors(best, state)
 
     assert errors(wrong, None, False).mean() > 0.3
     for C, registered, swapped in ((right, None, False), (right, far, True), (wrong, onto_source, True)):
         assert errors(C, registered, swapped).max() < 0.12
     assert errors(wrong, onto_target, False).max() < 0.12
     assert errors(wrong, far, True).mean() > 0.3
-    assert len(final_landmark_errors(state, state, at[:0], fine.landmark_evidence)) == 0
+    state.evidence = None
+    assert len(errors(right, None, False)) == 0
 
 
 def test_proxies_have_the_vertices_nearest_to_landmarks(creatures) -> None:

@@ -370,8 +370,8 @@ def test_a_repaired_map_without_landmarks_that_is_clearly_better_rejects_them(
     guided = build_result(replace(free, ranked=[worse]), worse, [])
     monkeypatch.setattr(search, "drop_landmarks", lambda samples, _rejected: samples)
 
-    def landmark_errors(_best, _state, at, _evidence):
-        return np.array(errors)[len(errors) - len(at) :]
+    def landmark_errors(_best, state):
+        return np.array(errors)[: len(state.landmarks)]
 
     for module in (search, search_result):
         monkeypatch.setattr(module, "final_landmark_errors", landmark_errors)

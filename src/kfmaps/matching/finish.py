@@ -273,10 +273,8 @@ def match_from_map(
     size = min(FINE_FUNCTIONS, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.clean_points(points), *bases))
-    known_verdict = known.verdict, known.confidence
-    found = SearchResult(
-        C, known.initialization, None, *known_verdict, orientation=known.orientation, quality=known.quality
-    )
+    name, verdict, confidence = known.initialization, known.verdict, known.confidence
+    found = SearchResult(C, name, None, verdict, confidence, orientation=known.orientation, quality=known.quality)
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
     return replace(result, alternatives=known.alternatives)
 

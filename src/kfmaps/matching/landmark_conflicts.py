@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import to_numpy
 from kfmaps.matching.candidates import map_distance, rerefine
-from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
+from kfmaps.matching.landmark_evidence import landmark_errors
 from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import (
@@ -82,14 +82,14 @@ def support_of_landmarks(best: Candidate, samples: SamplePair) -> float:
     return landmark_support(errors, samples.landmark_evidence.distances, to_numpy(samples.source.samples.basis.mass))
 
 
-def final_landmark_errors(
-    best: Candidate, state: SearchState, landmarks: np.ndarray, evidence: LandmarkEvidence | None
-) -> np.ndarray:
-    """Return the errors (l,) of landmarks by the final candidate: those of its functions or, if less, its registration.
+def final_landmark_errors(best: Candidate, state: SearchState) -> np.ndarray:
+    """Return the errors (l,) of all landmarks by a final candidate, in √area.
 
-    The functions alone may take a vertex at the end of a limb for one of another limb.
+    They are those of its functions or, where these are less, of its registration: the functions alone
+    may take a vertex at the end of a limb for one of another limb.
     """
-    if evidence is None or len(landmarks) == 0:
+    landmarks, evidence = state.landmarks, state.evidence
+    if evidence is None:
         return np.zeros(0)
     samples, registered = state.samples.fine.source.samples, best.registered_vertices
     errors = landmark_errors(best.functional_map, samples.basis.functions, evidence)

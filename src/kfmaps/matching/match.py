@@ -71,10 +71,8 @@ def match(
     prepared = prepare_both(source, target, config, progress=progress)
     pair = reindexing(prepared[0], prepared[1])
     pairs = check_landmark_pairs(landmarks, *pair.given)
-    clean_landmarks, descriptors = (
-        pair.clean_landmarks(pairs if len(pairs) else None),
-        pair.clean_descriptors(descriptors),
-    )
+    clean_landmarks = pair.clean_landmarks(pairs if len(pairs) else None)
+    descriptors = pair.clean_descriptors(descriptors)
     check_match_memory(config, len(prepared[0].mesh.vertices), len(prepared[1].mesh.vertices), len(pairs))
     meshes = (
         source.given_mesh if isinstance(source, Shape) else source,
@@ -201,7 +199,7 @@ def _retry_torn(task: MatchTask, found: SearchResult, best: Match) -> Match:
         if (torn_area_fraction(best) or 0.0) <= SCORE.max_torn_area:
             break
         with task.clock(f"another way, {i + 1}"):
-            # A candidate that would have to bend less too to become the better match is not worth its time.
+            # A candidate that would have to deform less too to become the better match is not worth its time.
             other = retry(found, i, final_score(best))
             if other is not None:
                 retried = replace(task, clock=StageTimer(task.clock.report))

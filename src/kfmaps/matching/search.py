@@ -239,8 +239,7 @@ def _better_result(found: SearchResult | None, result: SearchResult, state: Sear
         return None
     best = free.ranked[0]
     gain = without_landmark_errors(best).score - without_landmark_errors(guided.ranked[0]).score
-    errors = final_landmark_errors(best, state, state.landmarks, state.evidence)
-    contradicted = errors > max_landmark_error(best.quality.calibrated_score)
+    contradicted = final_landmark_errors(best, state) > max_landmark_error(best.quality.calibrated_score)
     if gain <= SCORE.close_margin or 2 * contradicted.sum() <= len(contradicted):
         return None
     rejected = np.ones(len(contradicted), dtype=bool)
@@ -259,8 +258,7 @@ def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[Sea
         return None, False
     if found.verdict != "sure" and not state.rejected.all():
         return None, False
-    evidence = state.samples.fine.landmark_evidence
-    errors = final_landmark_errors(best.ranked[0], state, state.landmarks[~state.rejected], evidence)
+    errors = final_landmark_errors(best.ranked[0], state)[~state.rejected]
     if (errors > max_landmark_error(found.quality)).any():
         return None, False
     marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)

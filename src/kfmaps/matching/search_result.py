@@ -69,7 +69,7 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     scores = [best.score, *(best.score - margin for _, margin in doubts), *(c.score for c in rest)]
     evidence, quality = calibrated_evidence(state, best, rest), best.quality.calibrated_score
     # A landmark that a rough map contradicts, on a tail say, may be right by the registered map made without it.
-    errors = final_landmark_errors(best, state, state.landmarks, state.evidence)
+    errors = final_landmark_errors(best, state)
     rejected = state.rejected & (state.rejected.all() | (errors > max_landmark_error(quality)))
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in alternatives]
     unlike = not is_near_isometric(quality)

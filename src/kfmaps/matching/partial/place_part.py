@@ -49,10 +49,7 @@ from kfmaps.matching.partial.scale_search import (
 )
 from kfmaps.matching.score import SCORE, by_score, select_distinct, verdict
 
-_PROXY_FROM, _PROXY_VERTICES = (
-    15_000,
-    5_000,
-)  # vertices above which a coarse proxy is placed, and of the proxy
+_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a coarse proxy is placed, and of the proxy
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
 
 
