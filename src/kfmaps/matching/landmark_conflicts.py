@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import to_numpy
 from kfmaps.matching.candidates import map_distance, rerefine
 from kfmaps.matching.landmark_evidence import landmark_errors
-from kfmaps.matching.ranking import ranking
+from kfmaps.matching.ranking import ProxyCache, ranking, score_registered, with_shot_error
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import (
     SCORE,
@@ -32,7 +32,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
 
     The best map contradicts some while it keeps to most of the others. A map that was found without landmarks and would
     be called "sure" or "likely" contradicts any number, unless a map that keeps to them fits the surfaces nearly as
-    well: then none is rejected for it, and neither map is sure.
+    well: then none is rejected for it, and each casts a doubt on the other.
     """
     best, samples = state.ranked[0], state.samples.fine
     errors = ignore_landmarks(best, samples).landmark_errors
@@ -48,13 +48,32 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     if verdict(free.quality.calibrated_score, margin, free.deformation_energy) not in ("sure", "likely"):
         return rejected, ()
     contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
-    if 2 * contradicted.sum() > len(contradicted):
+    if is_most(contradicted):
         # Where left and right were exchanged, landmarks near the middle would mislead too.
         contradicted = np.ones(len(contradicted), dtype=bool)
     gain = without_landmark_errors(free).score - without_landmark_errors(best).score
     if gain > SCORE.close_margin or not (contradicted & (errors <= limit)).any():
         return contradicted, ()
     return rejected, ((free, -gain),)
+
+
+def is_most(contradicted: np.ndarray) -> bool:
+    """Return whether a map contradicts most landmarks: ``contradicted (l,)`` bool."""
+    return 2 * int(contradicted.sum()) > len(contradicted)
+
+
+def contradicts_most(best: Candidate, state: SearchState) -> bool:
+    """Return whether a final candidate contradicts most of the landmarks of ``state``."""
+    return is_most(final_landmark_errors(best, state) > max_landmark_error(best.quality.calibrated_score))
+
+
+def registered_surface_score(best: Candidate, proxies: ProxyCache) -> float:
+    """Return the score of a final candidate by the surfaces alone, registered on fine proxies with their SHOT errors.
+
+    These tell a map that swaps front and back, which preserves distances nearly as well as the right one.
+    """
+    alone, pair = without_landmark_errors(best), proxies.fine
+    return alone.score if pair is None else with_shot_error(score_registered(alone, pair), pair).score
 
 
 def rank_by_surface(state: SearchState) -> list[Candidate]:

@@ -49,7 +49,9 @@ from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
 from kfmaps.matching.landmark_conflicts import (
     contradicted_landmarks,
+    contradicts_most,
     final_landmark_errors,
+    registered_surface_score,
     without_landmark_errors,
 )
 from kfmaps.matching.landmark_evidence import build_guidance
@@ -223,27 +225,40 @@ def _search_with_landmarks(
         ranked = rank(state)
     if settled is None:  # else the map that seemed to contradict landmarks, once repaired, keeps to them
         ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
-    result = _result(*_improve_best(ranked, report))
-    settled = settled or _better_result(found, result, given)
-    return result if settled is None or result.verdict == "sure" else settled
+    improved, retries = _improve_best(ranked, report)
+    result = _result(improved, retries)
+    if settled is not None:
+        return result if result.verdict == "sure" else settled
+    free = found and found._search
+    if found is None or free is None or not contradicts_most(free.ranked[0], given):
+        return result
+    return _better_result(found, result, given) or _result(_compare_with_free(improved, free), retries)
 
 
-def _better_result(found: SearchResult | None, result: SearchResult, state: SearchState) -> SearchResult | None:
+def _better_result(found: SearchResult, result: SearchResult, state: SearchState) -> SearchResult | None:
     """Return ``found``, the result without landmarks, if it is clearly better than the one that landmarks have led to.
 
-    It must contradict most of them, as where left and right were exchanged, and rejects all. Of unlike shapes only
-    repaired maps show which is better. ``state``: before the search, with all landmarks.
+    It must be "sure" or "likely", and contradicts most landmarks, as where left and right were exchanged: it rejects
+    all. Of unlike shapes only repaired maps show which is better. ``state``: before the search, with all landmarks.
     """
-    free, guided = found and found._search, result._search
-    if found is None or free is None or guided is None or found.verdict not in ("sure", "likely"):
+    free, guided = found._search, result._search
+    if free is None or guided is None or found.verdict not in ("sure", "likely"):
         return None
-    best = free.ranked[0]
-    gain = without_landmark_errors(best).score - without_landmark_errors(guided.ranked[0]).score
-    contradicted = final_landmark_errors(best, state) > max_landmark_error(best.quality.calibrated_score)
-    if gain <= SCORE.close_margin or 2 * contradicted.sum() <= len(contradicted):
+    gain = without_landmark_errors(free.ranked[0]).score - without_landmark_errors(guided.ranked[0]).score
+    if gain <= SCORE.close_margin:
         return None
-    rejected = np.ones(len(contradicted), dtype=bool)
+    rejected = np.ones(len(state.landmarks), dtype=bool)
     return _settled_result(found, replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected)))[0]
+
+
+def _compare_with_free(state: SearchState, free: SearchState) -> SearchState:
+    """Return ``state``, to which landmarks have led, with a doubt where the best map without them is clearly better.
+
+    Without this, landmarks with left and right exchanged make a map "sure" that swaps front and back.
+    """
+    best, guided = free.ranked[0], state.ranked[0]
+    gain = registered_surface_score(best, free.proxies) - registered_surface_score(guided, state.proxies)
+    return state if gain <= SCORE.close_margin else replace(state, doubts=(*state.doubts, (best, -gain)))
 
 
 def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[SearchResult | None, bool]:
