@@ -17,7 +17,7 @@ from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching import ranking, registration_refine, search, search_result
+from kfmaps.matching import landmark_conflicts, ranking, registration_refine, search, search_result
 from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
@@ -301,7 +301,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         search, "contradicted_landmarks", lambda state: (np.zeros(2, dtype=bool), ((state.ranked[0], 0.3),))
     )
     monkeypatch.setattr(search, "final_landmark_errors", lambda *_: np.array(errors))
-    monkeypatch.setattr(search, "_better_result", lambda *what: compared.append(what))
+    monkeypatch.setattr(search, "contradicts_most", lambda best, given: compared.append((best.name, given)))
     result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     samples, how = asked[0]
     assert how.get("landmarks") is None
@@ -317,7 +317,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
     if outcome == "settled":
         return
     keeps = word != "likely" and orientation == "preserving" and max(errors) <= max_landmark_error(quality)
-    assert [found.initialization for found, *_ in compared] == ([] if keeps else ["free"])
+    assert [name for name, _given in compared] == ([] if keeps else ["free"])
     assert len(improved[-1].doubts) == (0 if keeps else 1), "a sure map that keeps to landmarks casts no doubt on them"
     np.testing.assert_array_equal(asked[1][1]["landmarks"], landmark_vertices)
     assert asked[1][0].fine.landmark_cost is not None
@@ -332,26 +332,35 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
 
 
 @pytest.mark.parametrize(
-    ("verdict", "gain", "errors", "rejected"),
+    ("verdict", "gain", "errors", "outcome"),
     [
-        ("sure", 1.5, [0.4, 0.4, 0.0], True),
-        ("likely", 1.5, [0.4, 0.4, 0.0], True),
-        ("sure", 1.5, [0.4, 0.0, 0.0], False),
-        ("ambiguous", 1.5, [0.4, 0.4, 0.0], False),
-        ("sure", 0.5, [0.4, 0.4, 0.0], False),
+        ("sure", 1.5, [0.4, 0.4, 0.0], "rejected"),
+        ("likely", 1.5, [0.4, 0.4, 0.0], "rejected"),
+        ("sure", 1.5, [0.4, 0.0, 0.0], "followed"),
+        ("ambiguous", 1.5, [0.4, 0.4, 0.0], "doubted"),
+        ("sure", 0.5, [0.4, 0.4, 0.0], "doubted"),
+        ("ambiguous", -0.9, [0.4, 0.4, 0.0], "doubted"),
+        ("ambiguous", -1.1, [0.4, 0.4, 0.0], "followed"),
+        ("ambiguous", 0.5, [0.4, 0.0, 0.0], "followed"),
+        ("unlikely", 0.5, [0.4, 0.4, 0.0], "a turn keeps the shapes"),
     ],
 )
-def test_a_repaired_map_without_landmarks_that_is_clearly_better_rejects_them(
-    monkeypatch, creature_pair, verdict, gain, errors, rejected
+def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
+    monkeypatch, creature_pair, verdict, gain, errors, outcome
 ):
-    """Where it contradicts most; a landmark that it misses alone may be right."""
+    """One that is clearly better and likely rejects all; one that is not clearly worse takes their support."""
     pair, right = creature_pair, creature_pair.right
     landmarks = np.stack([pair.truth[[5, 300, 700]], [5, 300, 700]], axis=1)
     config, nobody = replace(kfmaps.Config(), threads=1), np.zeros(3, dtype=bool)
-    samples = pair.samples
-    worse = replace(
-        right, quality=replace(right.quality, distortion=right.quality.distortion + gain / SCORE.w_distortion)
+    reflections = (None, np.eye(5)) if outcome == "a turn keeps the shapes" else (np.eye(5), np.eye(5))
+    sides = (
+        replace(side, reflection_map=C)
+        for side, C in zip((pair.fine.source, pair.fine.target), reflections, strict=True)
     )
+    fine = replace(pair.fine, **dict(zip(("source", "target"), sides, strict=True)))
+    samples = replace(pair.samples, fine=fine)
+    quality = replace(right.quality, distortion=right.quality.distortion + gain / SCORE.w_distortion)
+    other = replace(right, name="led", quality=quality)
     free: Any = SearchState(
         pair.source,
         pair.target,
@@ -367,20 +376,27 @@ def test_a_repaired_map_without_landmarks_that_is_clearly_better_rejects_them(
     )
     given = replace(free, landmarks=landmarks, rejected=nobody)
     found = replace(build_result(free, right, []), verdict=verdict, quality=-9.0)
-    guided = build_result(replace(free, ranked=[worse]), worse, [])
     monkeypatch.setattr(search, "drop_landmarks", lambda samples, _rejected: samples)
 
     def landmark_errors(_best, state):
         return np.array(errors)[: len(state.landmarks)]
 
-    for module in (search, search_result):
+    for module in (search, search_result, landmark_conflicts):
         monkeypatch.setattr(module, "final_landmark_errors", landmark_errors)
-    result: Any = search._better_result(found, guided, given)
-    assert (result is not None) == rejected
-    if rejected:
-        assert result._search.rejected.all()
-        assert result.initialization == "truth"
-    assert search._better_result(None, guided, given) is None
+    monkeypatch.setattr(search_result, "support_of_landmarks", lambda *_: 0.98)
+    # Those that the best map itself contradicts have been rejected by then.
+    led = replace(given, ranked=[other], rejected=np.array([False, False, True]))
+    result: Any = search._compare_with_free(found, led, (right,), given)
+    state = result._search
+    assert result.initialization == ("truth" if outcome == "rejected" else "led")
+    assert state.rejected.all() == (outcome == "rejected")
+    assert result.retries == (() if outcome == "rejected" else (right,))
+    assert [(c.name, round(margin, 6)) for c, margin in state.doubts] == (
+        [("truth", -gain)] if outcome == "doubted" else []
+    )
+    if outcome != "rejected":
+        assert (result.verdict == "sure") == (outcome != "doubted")
+    assert search._compare_with_free(None, led, (), given).verdict == "sure"
 
 
 @pytest.mark.parametrize("rejects", [[True, True], [True, False]])

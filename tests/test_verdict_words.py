@@ -20,10 +20,10 @@ from kfmaps.viz.page import verdict_record
 
 def test_landmarks_are_advised_only_where_none_were_given() -> None:
     for kind in ("likely", "ambiguous", "unlikely"):
-        assert verdict_text(kind, 3) == VERDICTS[kind]
+        advice = " See that the landmarks do not exchange left and right." if kind == "ambiguous" else ""
+        assert verdict_text(kind, 3) == VERDICTS[kind] + advice
         assert verdict_text(kind, 0).startswith(f"{VERDICTS[kind]} ")
         assert "landmarks" in verdict_text(kind, 0)
-        assert "landmarks" not in verdict_text(kind, 3)
     assert verdict_text("sure", 0) == verdict_text("sure", 3) == VERDICTS["sure"]
     assert verdict_text("of another version", 0) == ""
 

@@ -51,9 +51,11 @@ _WITHOUT_LANDMARKS = {
     "unlikely": "Two or three landmarks may help.",
 }
 """Advice for matches without landmarks."""
+_WITH_LANDMARKS = {"ambiguous": "See that the landmarks do not exchange left and right."}
+"""Advice for matches with landmarks."""
 
 
 def verdict_text(verdict: str, n_landmarks: int) -> str:
     """Return the meaning of a verdict and advice, for a match with ``n_landmarks``; empty for an unknown verdict."""
-    advice = "" if n_landmarks else _WITHOUT_LANDMARKS.get(verdict, "")
+    advice = (_WITH_LANDMARKS if n_landmarks else _WITHOUT_LANDMARKS).get(verdict, "")
     return f"{VERDICTS.get(verdict, '')} {advice}".strip()

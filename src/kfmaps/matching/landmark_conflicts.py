@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import to_numpy
 from kfmaps.matching.candidates import map_distance, rerefine
 from kfmaps.matching.landmark_evidence import landmark_errors
-from kfmaps.matching.ranking import ProxyCache, ranking, score_registered, with_shot_error
+from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import (
     SCORE,
@@ -65,15 +65,6 @@ def is_most(contradicted: np.ndarray) -> bool:
 def contradicts_most(best: Candidate, state: SearchState) -> bool:
     """Return whether a final candidate contradicts most of the landmarks of ``state``."""
     return is_most(final_landmark_errors(best, state) > max_landmark_error(best.quality.calibrated_score))
-
-
-def registered_surface_score(best: Candidate, proxies: ProxyCache) -> float:
-    """Return the score of a final candidate by the surfaces alone, registered on fine proxies with their SHOT errors.
-
-    These tell a map that swaps front and back, which preserves distances nearly as well as the right one.
-    """
-    alone, pair = without_landmark_errors(best), proxies.fine
-    return alone.score if pair is None else with_shot_error(score_registered(alone, pair), pair).score
 
 
 def rank_by_surface(state: SearchState) -> list[Candidate]:

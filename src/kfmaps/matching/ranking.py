@@ -137,15 +137,15 @@ def rerank_close(order: list[Candidate], proxies: ProxyCache) -> list[Candidate]
     if pair is None:
         return order
     are_close = order[0].score - order[1].score < SCORE.close_margin
-    first = parallel(lambda c: with_shot_error(score_registered(c, pair) if are_close else c, pair), order[:2])
+
+    def with_shot_error(candidate: Candidate) -> Candidate:
+        candidate = score_registered(candidate, pair) if are_close else candidate
+        return replace(candidate, shot_error=registered_shot_error(candidate.functional_map, pair))
+
+    first = parallel(with_shot_error, order[:2])
     # The lower SHOT error costs nothing: the best is compared with candidates that have no SHOT error.
     reference = reference_values(first, np.mean)[0], reference_values(first, min)[1]
     return by_preference([normalize_errors(c, reference) for c in first]) + order[2:]
-
-
-def with_shot_error(candidate: Candidate, pair: ProxyPair) -> Candidate:
-    """Return a candidate with its SHOT error after registration of the proxies."""
-    return replace(candidate, shot_error=registered_shot_error(candidate.functional_map, pair))
 
 
 def score_registered(candidate: Candidate, pair: ProxyPair) -> Candidate:

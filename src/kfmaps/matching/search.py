@@ -51,7 +51,6 @@ from kfmaps.matching.landmark_conflicts import (
     contradicted_landmarks,
     contradicts_most,
     final_landmark_errors,
-    registered_surface_score,
     without_landmark_errors,
 )
 from kfmaps.matching.landmark_evidence import build_guidance
@@ -226,39 +225,33 @@ def _search_with_landmarks(
     if settled is None:  # else the map that seemed to contradict landmarks, once repaired, keeps to them
         ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
     improved, retries = _improve_best(ranked, report)
+    if settled is None:
+        return _compare_with_free(found, improved, retries, given)
     result = _result(improved, retries)
-    if settled is not None:
-        return result if result.verdict == "sure" else settled
+    return result if result.verdict == "sure" else settled
+
+
+def _compare_with_free(
+    found: SearchResult | None, state: SearchState, retries: tuple[Candidate | SwappedRepair, ...], given: SearchState
+) -> SearchResult:
+    """Return the result of ``state``, to which landmarks have led, compared with ``found``, the one without them.
+
+    Where ``found`` contradicts most landmarks, as if left and right were exchanged, and is "sure" or "likely" and
+    clearly better, it rejects all and is the result. Of unlike shapes only repaired maps show which is better.
+    Otherwise it casts a doubt if it is not clearly worse, unless a turn may keep the shapes: then landmarks decide.
+    ``given``: before the search, with all landmarks.
+    """
     free = found and found._search
     if found is None or free is None or not contradicts_most(free.ranked[0], given):
-        return result
-    return _better_result(found, result, given) or _result(_compare_with_free(improved, free), retries)
-
-
-def _better_result(found: SearchResult, result: SearchResult, state: SearchState) -> SearchResult | None:
-    """Return ``found``, the result without landmarks, if it is clearly better than the one that landmarks have led to.
-
-    It must be "sure" or "likely", and contradicts most landmarks, as where left and right were exchanged: it rejects
-    all. Of unlike shapes only repaired maps show which is better. ``state``: before the search, with all landmarks.
-    """
-    free, guided = found._search, result._search
-    if free is None or guided is None or found.verdict not in ("sure", "likely"):
-        return None
-    gain = without_landmark_errors(free.ranked[0]).score - without_landmark_errors(guided.ranked[0]).score
-    if gain <= SCORE.close_margin:
-        return None
-    rejected = np.ones(len(state.landmarks), dtype=bool)
-    return _settled_result(found, replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected)))[0]
-
-
-def _compare_with_free(state: SearchState, free: SearchState) -> SearchState:
-    """Return ``state``, to which landmarks have led, with a doubt where the best map without them is clearly better.
-
-    Without this, landmarks with left and right exchanged make a map "sure" that swaps front and back.
-    """
-    best, guided = free.ranked[0], state.ranked[0]
-    gain = registered_surface_score(best, free.proxies) - registered_surface_score(guided, state.proxies)
-    return state if gain <= SCORE.close_margin else replace(state, doubts=(*state.doubts, (best, -gain)))
+        return _result(state, retries)
+    gain = without_landmark_errors(free.ranked[0]).score - without_landmark_errors(state.ranked[0]).score
+    if gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
+        rejected = np.ones(len(given.landmarks), dtype=bool)
+        given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
+        return _settled_result(found, given)[0] or _result(state, retries)
+    if gain > -SCORE.close_margin and state.samples.fine.have_one_reflection:
+        state = replace(state, doubts=(*state.doubts, (free.ranked[0], -gain)), landmarks_count=False)
+    return _result(state, retries)
 
 
 def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[SearchResult | None, bool]:

@@ -104,10 +104,9 @@ def calibrated_evidence(
     margins = [*(margin for _, margin in _close_doubts(state)), *(_margin(best, other) for other in rest)]
     if not state.samples.fine.are_surfaces and (~state.rejected).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
-    margin = min(margins, default=np.inf)
-    # Where a map that contradicts the landmarks is clearly better without them, they may be wrong.
-    support = support_of_landmarks(best, state.samples.fine) if margin > -SCORE.close_margin else 0.0
-    return best.quality.calibrated_score, max(margin, 0.0), best.deformation_energy, support
+    margin = max(min(margins, default=np.inf), 0.0)
+    support = support_of_landmarks(best, state.samples.fine) if state.landmarks_count else 0.0
+    return best.quality.calibrated_score, margin, best.deformation_energy, support
 
 
 def _close_doubts(state: SearchState) -> list[tuple[Candidate, float]]:

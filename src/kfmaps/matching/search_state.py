@@ -36,3 +36,5 @@ class SearchState:
     # Whether a map to the mirror image may come first with the setting "auto": with landmarks only where one does
     # without them. Landmarks with left and right exchanged agree with one of any body that is nearly its own image.
     may_reverse: bool = True
+    # Whether landmarks raise the probability: not where they contradict a map that is about as good without them.
+    landmarks_count: bool = True
