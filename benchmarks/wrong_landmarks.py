@@ -1,9 +1,11 @@
 """Landmarks of which some are wrong: errors of the maps, and which landmarks are named.
 
     python benchmarks/wrong_landmarks.py --data DIR [--half choice|report] [--pairs 2] [--sets FAUST_r,...]
+    python benchmarks/wrong_landmarks.py --data DIR --only FAUST_r,tr_reg_003,tr_reg_012 --ways "10, left for right"
 
 DIR as for benchmarks/automatic.py. Every pair is matched without landmarks, with right ones, and with some that are
-wrong in one of the ways of :data:`WAYS`. "local" is the mean error within 0.1 √area of the wrong landmarks.
+wrong in one of the ways of :data:`WAYS`, or of those that ``--ways`` names, with semicolons between them. "local" is
+the mean error within 0.1 √area of the wrong landmarks.
 """
 
 from __future__ import annotations
@@ -62,13 +64,13 @@ def spoil(pairs: np.ndarray, way: str, count: int, target: kfmaps.Shape, rng: np
     return made
 
 
-def rows_of(job: Job) -> list[dict]:
-    """One row for each way."""
+def rows_of(job: Job, ways: tuple[str, ...] = tuple(WAYS)) -> list[dict]:
+    """One row without landmarks and one for each way."""
     source, target, true_s, true_t = loaded(job)
     config = replace(kfmaps.Config(), threads=1)
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target"))]
     places, rows, alone = shapes[1].mesh.vertices, [], np.zeros(0)
-    for name, (count, way, n_bad) in {"none": (0, "right", 0), **WAYS}.items():
+    for name, (count, way, n_bad) in {"none": (0, "right", 0), **{way: WAYS[way] for way in ways}}.items():
         rng = np.random.default_rng(count)
         right = chosen_landmarks(shapes[0], (true_s, true_t), count, 0.0) if count else np.zeros((0, 2), dtype=int)
         pairs = spoil(right, way, n_bad, shapes[1], rng)
@@ -109,7 +111,7 @@ def report(rows: list[dict]) -> None:
     for kind in dict.fromkeys(r["set"] for r in rows):
         here = [r for r in rows if r["set"] == kind]
         alone = np.mean([r["error"] for r in here if r["way"] == "none"])
-        for way in WAYS:
+        for way in dict.fromkeys(r["way"] for r in rows):
             made = [r for r in here if r["way"] == way]
             local = [r["local"] for r in made if r["local"][0] is not None]
             both = np.mean(local, axis=0) if local else (np.nan, np.nan)
@@ -123,10 +125,13 @@ def report(rows: list[dict]) -> None:
 def main() -> None:
     parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r", 2)
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--only", nargs="+", metavar="SET,SOURCE,TARGET", help="these pairs alone")
+    parser.add_argument("--ways", default=";".join(WAYS))
     arguments = parser.parse_args()
+    only = [Job(arguments.data, *pair.split(",")) for pair in arguments.only or ()]
     rows: list[dict] = []
-    for job in chosen_jobs(arguments, seed=1):
-        rows += rows_of(job)
+    for job in only or chosen_jobs(arguments, seed=1):
+        rows += rows_of(job, tuple(arguments.ways.split(";")))
     report(rows)
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
