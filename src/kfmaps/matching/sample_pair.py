@@ -40,9 +40,9 @@ class SamplePair:
         return self.source.orientation is not None and self.target.orientation is not None
 
     @property
-    def have_one_reflection(self) -> bool:
-        """Whether both shapes are nearly their own mirror image in one way, so that hardly any turn keeps them."""
-        return self.source.reflection_map is not None and self.target.reflection_map is not None
+    def has_one_reflection(self) -> bool:
+        """Whether one shape at least is nearly its own mirror image in one way alone, so that no turn keeps it."""
+        return self.source.reflection_map is not None or self.target.reflection_map is not None
 
     def solver(self, k: int) -> np.ndarray:
         """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""

@@ -249,7 +249,7 @@ def _compare_with_free(
         rejected = np.ones(len(given.landmarks), dtype=bool)
         given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
         return _settled_result(found, given)[0] or _result(state, retries)
-    if gain > -SCORE.close_margin and state.samples.fine.have_one_reflection:
+    if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (free.ranked[0], -gain)), landmarks_count=False)
     return _result(state, retries)
 
