@@ -44,6 +44,12 @@ class SamplePair:
         """Whether one shape at least is nearly its own mirror image in one way alone, so that no turn keeps it."""
         return self.source.reflection_map is not None or self.target.reflection_map is not None
 
+    @property
+    def may_be_turned(self) -> bool:
+        """Whether both shapes have self-maps, but no single reflection, so that a turn may keep them, as a table."""
+        are_symmetric = all(side.self_maps is not None and len(side.self_maps) for side in (self.source, self.target))
+        return are_symmetric and not self.has_one_reflection
+
     def solver(self, k: int) -> np.ndarray:
         """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""
         if k not in self.solvers:
