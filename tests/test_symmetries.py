@@ -28,7 +28,7 @@ from kfmaps.matching.ranking import ranking
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import scoring_samples, search_map
-from kfmaps.matching.search_result import _margin, alternative_maps
+from kfmaps.matching.search_result import _margin, alternative_maps, calibrated_evidence
 from kfmaps.matching.self_maps import (
     _MAX_DISTORTION,
     _MIN_DISPLACEMENT,
@@ -365,6 +365,34 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     assert _margin(best, worse) == pytest.approx(best.score - worse.score)
     unknown = replace(best, deformation_energy=None, strain=None)
     assert _margin(best, unknown) == best.score - unknown.score
+
+
+def test_a_margin_counts_less_between_shapes_that_a_turn_may_keep(unmarked):
+    state: Any = unmarked._search
+    best, fine = state.ranked[0], state.samples.fine
+    rival = replace(best, quality=replace(best.quality, coverage=best.quality.coverage - 1.0))
+    some, none = np.eye(20)[None], np.zeros((0, 20, 20))
+    reflection = np.eye(20)
+
+    def margin(source, target):
+        sides = (
+            replace(side, self_maps=maps, reflection_map=C)
+            for side, (maps, C) in zip((fine.source, fine.target), (source, target), strict=True)
+        )
+        pair = replace(fine, **dict(zip(("source", "target"), sides, strict=True)))
+        return calibrated_evidence(replace(state, samples=replace(state.samples, fine=pair)), best, [rival])[1]
+
+    whole = best.score - rival.score
+    assert whole > 0
+    assert margin((some, None), (some, None)) == pytest.approx(SCORE.turned_margin * whole)
+    for sides in (
+        ((some, reflection), (some, None)),
+        ((some, None), (some, reflection)),
+        ((none, None), (some, None)),
+        ((some, None), (none, None)),
+        ((some, None), (None, None)),
+    ):
+        assert margin(*sides) == pytest.approx(whole)
 
 
 def wrong_area(one, symmetric):

@@ -222,12 +222,11 @@ def _search_with_landmarks(
         if settled is not None and is_close:
             return settled
         ranked = rank(state)
-    if settled is None:  # else the map that seemed to contradict landmarks, once repaired, keeps to them
-        ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
-    improved, retries = _improve_best(ranked, report)
     if settled is None:
-        return _compare_with_free(found, improved, retries, given)
-    result = _result(improved, retries)
+        ranked = replace(ranked, doubts=(*ranked.doubts, *doubts))
+        return _compare_with_free(found, *_improve_best(ranked, report), given)
+    # The map that seemed to contradict landmarks keeps to them once it is repaired, and casts no doubt.
+    result = _result(*_improve_best(ranked, report))
     return result if result.verdict == "sure" else settled
 
 
