@@ -314,7 +314,9 @@ MUTANTS = tuple(
             "((source**2).sum(axis=1)[None, :]",
             "test_search -k many",
         ),
-        ("evidence - numbers.w_landmark * missed", "evidence", "test_score"),
+        ("evidence - landmark_cost(candidate.landmark_errors, numbers)", "evidence", "test_score"),
+        ("margin + landmark_cost(other.landmark_errors)", "margin", "test_symmetries -k quality_alone"),
+        (" - landmark_cost(best.landmark_errors)", "", "test_symmetries -k quality_alone"),
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
         (
             "(along[0][i] * along[1][j] - along[1][i] * along[0][j]) / 2",

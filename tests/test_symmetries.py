@@ -363,6 +363,11 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     assert _margin(best, bends_more) == pytest.approx(best.score - bends_more.score) != 0.0
     worse = replace(bends_less, quality=replace(best.quality, coverage=best.quality.coverage - 0.31))
     assert _margin(best, worse) == pytest.approx(best.score - worse.score)
+    # Landmarks tell a shape from its turned image: those that are missed count as in the score.
+    met, missed = (np.full(3, error) for error in (0.0, SCORE.max_landmark_error / 2))
+    led, turned = replace(best, landmark_errors=met), replace(bends_less, landmark_errors=missed)
+    assert _margin(led, turned) == pytest.approx(1.5 * SCORE.w_landmark)
+    assert _margin(turned, replace(led, deformation_energy=usual * 0.99)) == pytest.approx(-1.5 * SCORE.w_landmark)
     unknown = replace(best, deformation_energy=None, strain=None)
     assert _margin(best, unknown) == best.score - unknown.score
 

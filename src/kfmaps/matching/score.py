@@ -373,8 +373,12 @@ def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
     shot = -numbers.w_shot * (candidate.shot_error or 0.0)
     extremities = numbers.w_extremities * candidate.quality.extremity_descriptor_error
     evidence = quality_score(candidate.quality, numbers) - extremities + deformation + strain + shot
-    missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
-    return round(evidence - numbers.w_landmark * missed, 9)
+    return round(evidence - landmark_cost(candidate.landmark_errors, numbers), 9)
+
+
+def landmark_cost(errors: np.ndarray, numbers: Scoring = SCORE) -> float:
+    """Return the cost in the score of a candidate of landmarks with ``errors (l,)``, in √area."""
+    return numbers.w_landmark * float(np.minimum(errors / numbers.max_landmark_error, 1.0).sum())
 
 
 def deformation_cost(energy: float, numbers: Scoring = SCORE) -> float:

@@ -15,7 +15,15 @@ from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.landmark_conflicts import final_landmark_errors, support_of_landmarks
 from kfmaps.matching.registration_refine import SwappedRepair
-from kfmaps.matching.score import SCORE, Candidate, is_near_isometric, max_landmark_error, probability, verdict
+from kfmaps.matching.score import (
+    SCORE,
+    Candidate,
+    is_near_isometric,
+    landmark_cost,
+    max_landmark_error,
+    probability,
+    verdict,
+)
 from kfmaps.matching.search_state import SearchState
 from kfmaps.matching.solve import Fit
 
@@ -120,11 +128,11 @@ def _margin(best: Candidate, other: Candidate) -> float:
 
     A candidate that preserves distances and descriptors as well, and deforms the shape no more than right maps do, is
     the best map after a symmetry of the shape. Which of the two deforms the shape less depends on the poses alone, so
-    their deformation energies are left out.
+    their deformation energies are left out; landmarks still tell them apart.
     """
     margin = best.quality.score - other.quality.score
     if margin < SCORE.clear_margin and other.excess_deformation < 0.0:
-        return margin
+        return margin + landmark_cost(other.landmark_errors) - landmark_cost(best.landmark_errors)
     return best.score - other.score
 
 
