@@ -69,9 +69,13 @@ def test_cached_samples_change_no_bit(tmp_path: Path) -> None:
     assert kept.keys() == known.keys()
     for name, value in known.items():
         np.testing.assert_array_equal(kept[name], value, err_msg=name)
-    plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, shape_samples=(read, scoring_samples(b, 3)))
-    np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
-    assert quick.score.scores == plain.score.scores
+    for landmarks in (None, np.array([[5, 5], [40, 40], [200, 200]])):
+        plain, quick = (
+            match(a, b, config, landmarks=landmarks, rng=3, shape_samples=samples)
+            for samples in (None, (read, scoring_samples(b, 3)))
+        )
+        np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
+        assert quick.score.scores == plain.score.scores
     data = _samples_path(entry, 3).read_bytes()
     _samples_path(entry, 3).write_bytes(data[: len(data) // 2])
     assert load_record(_samples_path(entry, 3), type(first)) is None

@@ -78,7 +78,7 @@ def given(creatures: Any, count: int) -> Any:
     """Samples on which maps between the creatures are scored with so many landmarks."""
     source, target, _ = creatures
     at = spread_out(creatures, count)
-    samples = sample_for_scoring(source, 300, landmarks=at[:, 0]), sample_for_scoring(target, 300, landmarks=at[:, 1])
+    samples = sample_for_scoring(source, 300), sample_for_scoring(target, 300)
     return two_level_samples(source, target, samples, at).fine
 
 

@@ -22,7 +22,7 @@ from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.finish import adapt_settings
 from kfmaps.matching.fit import fit
 from kfmaps.matching.initial_maps import FIT_SAMPLES, FitSpec, Start, fit_descriptor_set
-from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors
+from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_distances, landmark_errors
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import sample_for_scoring, sample_surface
 from kfmaps.matching.sample_pair import (
@@ -124,7 +124,7 @@ def test_a_landmark_is_rejected_when_a_map_keeps_to_most_of_the_others():
 def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     at = np.array([10, 200, 400])
     wrong = np.array([10, 200, 5])
-    judge = sample_for_scoring(shape, 300, landmarks=at)
+    judge = sample_for_scoring(shape, 300)
     on: Any = two_level_samples(shape, shape, (judge, judge), np.stack([at, wrong], axis=1))
     off = landmark_errors(np.eye(60), judge.samples.basis.functions, on.fine.landmark_evidence)
     true = geodesic_distances(shape.mesh, at[2:])[0, 5]
@@ -156,12 +156,16 @@ def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
 
 def test_a_large_shape_is_scored_on_a_coarse_proxy(monkeypatch):
     shape = prepare(blob(1500), SMALL)
-    whole: Any = sample_for_scoring(shape, 200, landmarks=np.array([7]))
+    whole: Any = sample_for_scoring(shape, 200)
+    samples = whole.samples.vertices
+    from_landmarks = [landmark_distances(shape, samples, np.array([7, samples[3]]))]
     monkeypatch.setattr("kfmaps.matching.quality.MAX_SURFACE_VERTICES", 900)
     assert len(sample_surface(shape, np.arange(10))[0].vertices) < 950
-    less: Any = sample_for_scoring(shape, 200, landmarks=np.array([7]))
-    np.testing.assert_array_equal(less.samples.vertices, whole.samples.vertices)
-    for a, b in ((less.distances, whole.distances), (less.landmark_distances, whole.landmark_distances)):
+    less: Any = sample_for_scoring(shape, 200)
+    np.testing.assert_array_equal(less.samples.vertices, samples)
+    from_landmarks.append(landmark_distances(shape, samples, np.array([7, samples[3]])))
+    np.testing.assert_array_equal([distances[1, 3] for distances in from_landmarks], 0.0)
+    for a, b in ((less.distances, whole.distances), from_landmarks):
         assert np.abs(a - b).mean() < 0.03 * b.mean()
     change = np.linalg.norm(less.orientation - whole.orientation) / np.linalg.norm(whole.orientation)
     assert change < 0.2

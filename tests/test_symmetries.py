@@ -505,7 +505,7 @@ def test_what_the_user_says_is_heard(monkeypatch, symmetric):
     given = [np.random.default_rng(i).normal(size=(len(shape.mesh.vertices), 2)) for i, shape in enumerate(shapes)]
     assert "SHOT" in names(monkeypatch, symmetric, -np.inf, descriptors=tuple(given))[0]
     landmark_vertices = np.stack([symmetric.truth[:2], np.arange(2)], axis=1)
-    both = [sample_for_scoring(shape, landmarks=at) for shape, at in zip(shapes, landmark_vertices.T, strict=True)]
+    both = [sample_for_scoring(shape) for shape in shapes]
     led = two_level_samples(*shapes, (both[0], both[1]), landmark_vertices)
     assert "SHOT" in names(monkeypatch, symmetric, -np.inf, led, landmark_vertices)[0]
 

@@ -242,7 +242,7 @@ def _match(task: PairTask) -> dict[str, Any]:
     """Match a pair and save the map; return the fields of the result."""
     shapes, config = pair_shapes(task), replace(task.spec.config, threads=1)
     landmarks = _landmark_pairs(task, *(len(shape.mesh.vertices) for shape in shapes))
-    shape_samples = pair_samples(task, shapes) if config.search is not None and landmarks is None else None
+    shape_samples = pair_samples(task, shapes) if config.search is not None else None
     result = match(*shapes, config, landmarks=landmarks, rng=task.spec.seed, shape_samples=shape_samples)
     return save_pair_map(task, result, shapes, map_path(task.folder, task.key))
 

@@ -9,11 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import to_numpy
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import DIMENSIONS, DescriptorGuidance, combine_guidance, descriptor_guidance
 from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.geodesics import geodesic_graph
+from kfmaps.matching.quality import sample_surface
 from kfmaps.shape import Shape
 
 _HEAT_TIMES = (0.004, 0.02, 0.1)
@@ -70,6 +73,17 @@ def heat_guidance(functions_s: np.ndarray, functions_t: np.ndarray) -> Descripto
         centred = centred @ np.linalg.eigh(centred.T @ centred)[1][:, ::-1][:, :DIMENSIONS]
     centred = centred / np.sqrt(max(2 * (centred**2).sum(axis=1).mean(), 1e-12))
     return DescriptorGuidance(centred[: len(flat[0])], centred[len(flat[0]) :])
+
+
+def landmark_distances(shape: Shape, samples: np.ndarray, landmarks: np.ndarray) -> np.ndarray:
+    """Return the geodesic distances (l, q) from landmarks to samples, in √area; both are vertices of ``shape``.
+
+    Separate components are as far apart as the farthest points of one.
+    """
+    mesh, _, rows = sample_surface(shape, np.concatenate([samples, landmarks]))
+    distances = dijkstra(geodesic_graph(mesh, 1), indices=rows[len(samples) :])[:, rows[: len(samples)]]
+    is_finite = np.isfinite(distances)
+    return np.where(is_finite, distances, distances[is_finite].max(initial=0.0))
 
 
 def landmark_errors(C: np.ndarray, functions_s: np.ndarray, evidence: LandmarkEvidence) -> np.ndarray:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, like, to_numpy
@@ -61,7 +60,6 @@ class ShapeSamples:
     descriptors: np.ndarray | None  # (q, d): SHOT at the samples
     heat: np.ndarray  # (q, t): logarithm of the heat kernel signature at the samples, for fixed times
     positions: np.ndarray  # (q, 3)
-    landmark_distances: np.ndarray  # (l, q): geodesic distances from landmarks to the samples
     extremities: Extremities
     proxy: CoarseProxy | None  # ``None`` for a point cloud
     mirrored: bool = False  # whether the samples are of the mirror image
@@ -152,33 +150,17 @@ class ShortDistances:
         return float(change.ravel()[self.at].mean()) / self.mean if self.mean > 0 else 0.0
 
 
-def sample_for_scoring(
-    shape: Shape,
-    count: int = 1000,
-    rng: int | np.random.Generator = 0,
-    landmarks: np.ndarray | None = None,
-) -> ShapeSamples:
-    """Sample ``count`` points of ``shape`` and compute what :func:`map_quality` compares.
-
-    ``landmarks (l,)``: vertices whose distances to the samples are computed too.
-    """
+def sample_for_scoring(shape: Shape, count: int = 1000, rng: int | np.random.Generator = 0) -> ShapeSamples:
+    """Sample ``count`` points of ``shape`` and compute what :func:`map_quality` compares."""
     samples = spectral_samples(shape.basis, count, rng)
-    landmarks = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
     first = samples.vertices[:300]  # the first of them, between which geodesic distances are compared
-    mesh, functions, rows = sample_surface(shape, np.concatenate([samples.vertices, landmarks]))
-    rows, landmark_rows = rows[: len(samples.vertices)], rows[len(samples.vertices) :]
+    mesh, functions, rows = sample_surface(shape, samples.vertices)
     graph = geodesic_graph(mesh, 1)
     distances = pairwise_geodesics(graph, rows[: len(first)])
     # Separate components are as far apart as the farthest points of one.
     is_finite = np.isfinite(distances)
     farthest = distances[is_finite].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
     distances = np.where(is_finite, distances, farthest)
-    landmark_distances = np.zeros((0, len(rows)))
-    if len(landmarks):
-        landmark_distances = dijkstra(graph, indices=landmark_rows)[:, rows]
-        is_finite = np.isfinite(landmark_distances)
-        farthest = max(farthest, landmark_distances[is_finite].max(initial=0.0))
-        landmark_distances = np.where(is_finite, landmark_distances, farthest)
     orientation = None
     if len(shape.mesh.faces):
         size = 50  # functions that the orientation operators are written in, as many as fits need
@@ -191,7 +173,6 @@ def sample_for_scoring(
         descriptors=None if shape.shot is None else shape.shot[samples.vertices],
         heat=log_heat_signature(samples.basis),
         positions=shape.mesh.vertices[samples.vertices],
-        landmark_distances=landmark_distances,
         extremities=extremities(distances, areas_of_first(samples.basis, len(first)), mesh, rows, graph),
         proxy=shape_proxy(shape),
     )
@@ -220,7 +201,6 @@ def subsample(shape: ShapeSamples, count: int) -> ShapeSamples:
         descriptors=None if shape.descriptors is None else shape.descriptors[:count],
         heat=shape.heat[:count],
         positions=shape.positions[:count],
-        landmark_distances=shape.landmark_distances[:, :count],
         extremities=shape.extremities.subsample(count),
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
 from kfmaps.fmap.zoomout import pseudo_inverse
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost
-from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, heat_guidance
+from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, heat_guidance, landmark_distances
 from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
 from kfmaps.shape import Shape
 
@@ -96,14 +96,14 @@ def two_level_samples(
 ) -> TwoLevelSamples:
     """Return the samples of two prepared shapes at two levels.
 
-    ``shape_samples``: the fine samples of both shapes, with the distances from their landmarks; ``landmarks (l, 2)``:
-    pairs "source vertex, target vertex".
+    ``shape_samples``: the fine samples of both shapes; ``landmarks (l, 2)``: pairs "source vertex, target vertex".
     """
     evidence = None
     if landmarks is not None and len(landmarks):
         sides = zip((source, target), shape_samples, landmarks.T, strict=True)
         heat = [heat_features(p.samples.basis, shape.basis, at) for shape, p, at in sides]
-        evidence = LandmarkEvidence(target.basis.functions[landmarks[:, 1]], shape_samples[0].landmark_distances, *heat)
+        distances = landmark_distances(source, shape_samples[0].samples.vertices, landmarks[:, 0])
+        evidence = LandmarkEvidence(target.basis.functions[landmarks[:, 1]], distances, *heat)
     coarse = subsample(shape_samples[0], COARSE_SAMPLES), subsample(shape_samples[1], COARSE_SAMPLES)
     subsampled = evidence and evidence.subsample(*(len(p.samples.vertices) for p in coarse))
     return TwoLevelSamples(build_sample_pair(*coarse, subsampled), build_sample_pair(*shape_samples, evidence))

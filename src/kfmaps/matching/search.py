@@ -97,7 +97,7 @@ def search_map(
 
     ``landmarks (l, 2)``: pairs "source vertex, target vertex". They guide the candidates and count in their scores.
     ``shape_samples``: samples of both shapes by :func:`scoring_samples` with the same ``rng``, which saves time where a
-    shape is matched many times. They are not used with landmarks, since samples then have distances from these.
+    shape is matched many times.
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config(), which has them")
@@ -106,7 +106,7 @@ def search_map(
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
     with limit_threads(config.threads):
-        shape_samples = _search_samples(source, target, config, pairs, seed, shape_samples)
+        shape_samples = _search_samples(source, target, config, seed, shape_samples)
         samples = two_level_samples(source, target, shape_samples)
         report("candidates", 0.1)
         descriptors = user_descriptors(source, target, config.descriptors, descriptors)
@@ -163,17 +163,13 @@ def _search_samples(
     source: Shape,
     target: Shape,
     config: Config,
-    landmarks: np.ndarray,
     seed: int,
     shape_samples: tuple[ShapeSamples, ShapeSamples] | None,
 ) -> tuple[ShapeSamples, ShapeSamples]:
-    """Return the samples of both shapes, without extremities where the search does not match these.
-
-    ``shape_samples``: samples that are used where there are no landmarks.
-    """
-    if shape_samples is None or len(landmarks):
-        sides, drawn = zip((source, target), landmarks.T, strict=True), derived_seed(seed)
-        a, b = parallel(lambda s: with_self_maps(sample_for_scoring(s[0], rng=drawn, landmarks=s[1])), sides)
+    """Return the samples of both shapes, without extremities where the search does not match these."""
+    if shape_samples is None:
+        drawn = derived_seed(seed)
+        a, b = parallel(lambda shape: with_self_maps(sample_for_scoring(shape, rng=drawn)), (source, target))
         shape_samples = a, b
     assert config.search is not None
     if config.search.match_extremities:
