@@ -1081,6 +1081,16 @@ MUTANTS = tuple(
         ("if gain > -SCORE.close_margin and", "if gain > 0 and", "test_registration_evidence -k contradicts_most"),
         (" and state.samples.fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
         (", landmarks_count=False)", ")", "test_registration_evidence -k contradicts_most"),
+        (
+            "is_same = is_same and map_distance",
+            "is_same = True or map_distance",
+            "test_registration_evidence -k hardly_change",
+        ),
+        (
+            "if is_same and (found.confidence",
+            "if is_same or (found.confidence",
+            "test_registration_evidence -k hardly_change",
+        ),
         ("margin = share * max(", "margin = max(", "test_symmetries -k margin_counts_less"),
         ("are_symmetric and not self.has_one_reflection", "are_symmetric", "test_symmetries -k margin_counts_less"),
         ("is not None and len(side.self_maps)", "is not None", "test_symmetries -k margin_counts_less"),

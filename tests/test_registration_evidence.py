@@ -399,6 +399,49 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
     assert search._compare_with_free(None, led, (), given).verdict == "sure"
 
 
+@pytest.mark.parametrize(
+    ("shift", "orientation", "misses", "is_kept"),
+    [
+        (0, "preserving", False, True),
+        (1, "preserving", False, False),
+        (0, "reversing", False, False),
+        (0, "preserving", True, False),
+    ],
+)
+def test_a_map_that_landmarks_hardly_change_is_as_probable_as_without_them(
+    monkeypatch, creature_pair, shift, orientation, misses, is_kept
+):
+    pair, right = creature_pair, creature_pair.right
+    state: Any = SearchState(
+        pair.source,
+        pair.target,
+        replace(kfmaps.Config(), threads=1),
+        np.zeros((0, 2), dtype=int),
+        None,
+        np.zeros(0, dtype=bool),
+        pair.samples,
+        pair.proxies,
+        [],
+        [replace(right, name="led", points=np.roll(right.points, shift))],
+        "preserving",
+        doubts=((right, 0.1),),
+    )
+    free = replace(state, ranked=[right], doubts=(), orientation=orientation)
+    found = build_result(free, right, [])
+    monkeypatch.setattr(search, "contradicts_most", lambda *_: misses)
+    assert map_distance(right, state.ranked[0], pair.fine.source) > SCORE.twin_distance or shift == 0
+    alone = build_result(state, state.ranked[0], [])
+    assert alone.verdict == "ambiguous"
+    assert found.verdict == "sure"
+    result = search._compare_with_free(found, state, (), state)
+    assert result.initialization == "led"
+    assert result.confidence == (found.confidence if is_kept else pytest.approx(alone.confidence, rel=0.2))
+    assert result.verdict == ("sure" if is_kept else "ambiguous")
+    # Landmarks that make it more probable count.
+    result = search._compare_with_free(replace(found, confidence=0.1, verdict="unlikely"), state, (), state)
+    assert result.verdict == "ambiguous"
+
+
 @pytest.mark.parametrize("rejects", [[True, True], [True, False]])
 def test_a_likely_map_that_rejects_all_landmarks_is_not_sought_again(monkeypatch, creatures, rejects):
     source, target, truth = creatures

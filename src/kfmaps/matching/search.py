@@ -234,19 +234,28 @@ def _compare_with_free(
     Where ``found`` contradicts most landmarks, as if left and right were exchanged, and is "sure" or "likely" and
     clearly better, it rejects all and is the result. Of unlike shapes only repaired maps show which is better.
     Otherwise it casts a doubt if it is not clearly worse, unless a turn may keep the shapes: then landmarks decide.
+    Where it contradicts few and both are nearly the same map, that is as probable as without landmarks at least.
     ``given``: before the search, with all landmarks.
     """
-    free = found and found._search
-    if found is None or free is None or not contradicts_most(free.ranked[0], given):
-        return _result(state, retries)
-    gain = without_landmark_errors(free.ranked[0]).score - without_landmark_errors(state.ranked[0]).score
+    result, free = _result(state, retries), found and found._search
+    if found is None or free is None:
+        return result
+    best, led = free.ranked[0], state.ranked[0]
+    if not contradicts_most(best, given):
+        is_same = found.orientation == state.orientation
+        is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
+        if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
+            return replace(result, confidence=found.confidence, verdict=found.verdict)
+        return result
+    gain = without_landmark_errors(best).score - without_landmark_errors(led).score
     if gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
         given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
-        return _settled_result(found, given)[0] or _result(state, retries)
+        return _settled_result(found, given)[0] or result
     if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
-        state = replace(state, doubts=(*state.doubts, (free.ranked[0], -gain)), landmarks_count=False)
-    return _result(state, retries)
+        state = replace(state, doubts=(*state.doubts, (best, -gain)), landmarks_count=False)
+        return _result(state, retries)
+    return result
 
 
 def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[SearchResult | None, bool]:
