@@ -23,7 +23,7 @@ from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import write_landmarks
 from kfmaps.io.convert import as_mesh
 
-GUARDS = ("kfmaps.matching.match",)
+GUARDS = ("kfmaps.matching.match", "kfmaps.matching.result")
 
 MESH = blob(200)
 V, F = MESH.vertices, MESH.faces
@@ -184,6 +184,10 @@ def test_inverse(shuffled: kfmaps.Match) -> None:
         middle = V[there].mean(axis=0)
         assert np.linalg.norm(V[back[vertex]] - middle) <= np.linalg.norm(V[there] - middle, axis=1).min() + 1e-12
     assert set(points[back]) <= set(reached)
+    # Outside the part that both shapes have it is -1.
+    overlap = np.where(np.arange(len(back)) < 120, 0.9, 0.2)
+    part = replace(crowded, partial=replace(crowded.partial, overlap_source=overlap))
+    np.testing.assert_array_equal(part.inverse(), np.where(np.arange(len(back)) < 120, back, -1))
 
 
 def test_the_inverse_is_finer_where_the_map_is(shuffled: kfmaps.Match, poses: kfmaps.datasets.ExamplePair) -> None:

@@ -16,7 +16,7 @@ from kfmaps.collection.pair_graph import (
     signature_graph,
 )
 from kfmaps.collection.paths import best_path, compose_maps, invert_map
-from kfmaps.collection.repair import CyclePath, chirality, repair_maps
+from kfmaps.collection.repair import CyclePath, _synchronize, chirality, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
 from kfmaps.collection.synchronization import (
     CandidateMap,
@@ -324,6 +324,14 @@ def test_mirror_decisions_agree_with_most() -> None:
     np.testing.assert_array_equal(chirality(7, path, kept, np.linspace(0.5, 1, 6)), truth)
     apart = [(0, 1), (2, 3)]
     np.testing.assert_array_equal(chirality(4, apart, [False, False], [1.0, 1.0]), [1, -1, 1, -1])
+
+
+def test_a_probable_pair_decides_on_handedness_against_one_that_is_not() -> None:
+    pairs, C = [(0, 1), (1, 2), (0, 2)], np.eye(20)
+    maps = [[ScoredMap(C, -5.0, 0.9, True)], [ScoredMap(C, -5.0, 0.9)], [ScoredMap(C, -11.5, 0.9)]]
+    np.testing.assert_array_equal(_synchronize(3, pairs, maps)[0], [1, -1, -1])
+    maps[0], maps[2] = [ScoredMap(C, -11.5, 0.9, True)], [ScoredMap(C, -5.0, 0.9)]
+    np.testing.assert_array_equal(_synchronize(3, pairs, maps)[0], [1, 1, 1])
 
 
 def test_no_shape_would_gain_by_another_handedness() -> None:

@@ -10,7 +10,8 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.fmap.constraints import _tangent, minimize_orthogonal, nearest_orthogonal
+from kfmaps.config import FORMULATIONS, Config
+from kfmaps.fmap.constraints import _next_direction, _tangent, minimize_orthogonal, nearest_orthogonal
 from kfmaps.fmap.coupled import RotatedPenalty, RotatedTerm, couple_bases
 from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.losses import _LOSSES, Loss, RobustData, sparse_penalty
@@ -26,8 +27,9 @@ from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import descriptor_term, laplacian_term, operator_term, value
 from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.basis import Basis
+from kfmaps.kernels.kernels import Linear
 
-GUARDS = ("kfmaps.fmap",)
+GUARDS = ("kfmaps.fmap", "kfmaps.config")
 
 N, R = 60, 9
 SIZES = [(6, 6), (7, 5), (5, 7)]
@@ -440,3 +442,31 @@ def test_the_majorizer_of_transport_is_the_cost_of_its_plan(numbers):
     for other in (C, 0.0 * C, 2.0 * C + 0.1):
         costs = _costs(other, penalty.functions_s, penalty.functions_t)
         assert value(term, other) == pytest.approx((plan * costs).sum(), rel=1e-9)
+
+
+def test_directions_on_orthonormal_maps_are_conjugate() -> None:
+    """By the formula of Polak and Ribière, with what the earlier ones leave in the tangent space."""
+    rng = np.random.default_rng(0)
+    C = nearest_orthogonal(rng.normal(size=(6, 4)))
+    gradient, old_gradient, direction = (_tangent(C, rng.normal(size=(6, 4))) for _ in range(3))
+    gz, old_gz = float((gradient**2).sum()), 50.0
+    beta = (gz - float((old_gradient * gradient).sum())) / old_gz
+    assert beta > 0
+    wanted = beta * direction - gradient
+    assert (wanted * gradient).sum() < 0
+    found = _next_direction(C, gradient, gradient, gz, direction, (old_gradient, old_gz))
+    np.testing.assert_allclose(found, wanted, atol=1e-12)
+    # Uphill, or without an earlier one, it is the steepest descent.
+    np.testing.assert_array_equal(_next_direction(C, gradient, gradient, gz, None, None), -gradient)
+    uphill = _next_direction(C, gradient, gradient, gz, 1e3 * gradient, (-gradient, old_gz))
+    np.testing.assert_array_equal(uphill, -gradient)
+
+
+def test_published_formulations_differ_in_nothing_else() -> None:
+    for name in FORMULATIONS:
+        config = Config.published(name)
+        assert config.formulation == FORMULATIONS[name]
+        assert config.kernel == Linear()
+        with_operators = name == "ren19"
+        assert (config.weights.commutativity > 0) == with_operators
+        assert with_operators or (config.weights.descriptors, config.weights.laplacian) == (1.0, 1.0)

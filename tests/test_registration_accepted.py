@@ -65,6 +65,16 @@ class Pretended:
         return Registration(source.vertices, place.faces, place.weights, 0.0, self.gap)
 
 
+def test_progress_of_a_registration_rises_to_one() -> None:
+    pair = datasets.two_poses(1500, rng=1)
+    reported: list[float] = []
+    fit = NonRigid(n_levels=2, steps=3)
+    fit(unit_area(pair.source), unit_area(pair.target), pair.truth, progress=reported.append)
+    assert reported == sorted(reported)
+    assert reported[-1] == 1.0
+    assert len(set(reported)) >= 6
+
+
 def end(
     pair: datasets.ExamplePair, finish: Any, points: np.ndarray | None = None, landmarks: np.ndarray | None = None
 ) -> Any:
