@@ -110,7 +110,7 @@ def test_positions_are_spread_smoothly(creature_pair):
     assert np.linalg.norm(again - source.mesh.vertices, axis=1).mean() < 0.01
 
 
-def test_what_lies_on_itself_differs_nowhere(creature_pair):
+def test_a_surface_has_no_difference_to_itself(creature_pair):
     mesh = creature_pair.source.mesh
     guide = position_normal_guidance(mesh, mesh)
     assert np.array_equal(guide.source, guide.target)
@@ -208,7 +208,7 @@ def test_likely_extremity_matches_that_no_map_has_are_repaired_too(creature_pair
     assert len(begun) == 5
 
 
-def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature_pair, astray, monkeypatch):
+def test_a_repair_that_fails_in_its_second_round_counts_as_after_the_first(creature_pair, astray, monkeypatch):
     """The best repair began with an extremity match, all others lag: what is left of it leads nevertheless."""
     good, bad = score_maps([Start("matched", creature_pair.C), Start("before", astray)], creature_pair.fine)
 
@@ -231,7 +231,7 @@ def test_what_falls_apart_in_the_second_round_counts_as_after_the_first(creature
     assert [c.name for c in repaired(creature_pair, bad)[0]] == ["matched", "before"]
 
 
-def test_what_lags_after_one_round_is_given_up(creature_pair, astray, monkeypatch):
+def test_a_repair_that_lags_after_one_round_is_given_up(creature_pair, astray, monkeypatch):
     """It stays a rival that is bent as badly as the worst; what was good before its first round is not given up."""
     good, bad = score_maps([Start("0", creature_pair.C), Start("1", astray)], creature_pair.fine)
     gap, rounds = good.quality.score - bad.quality.score, []
@@ -552,7 +552,7 @@ def test_a_map_is_registered_on_proxies_either_way(creature_pair, monkeypatch):
     assert [one is None for one in ended] == [False, True]
 
 
-def test_what_deforms_too_much_is_repaired_before_it_is_compared_with_mirror_images(creature_pair, monkeypatch):
+def test_a_map_that_deforms_too_much_is_repaired_before_mirror_images_are_tried(creature_pair, monkeypatch):
     """The repaired map stays where it is better, and where no proxy can be registered all stays as it is."""
     source, target, copies = creature_pair.source, creature_pair.target, creature_pair.proxies
     starts = [Start("torn", torn(creature_pair, 4)), Start("right", creature_pair.C)]

@@ -158,7 +158,7 @@ def test_a_notebook_shows_the_page_in_its_cell(found: kfmaps.Match, monkeypatch:
     assert page.endswith("</html>")
 
 
-def test_what_is_carried_over(shuffled: kfmaps.Match, tmp_path: Path) -> None:
+def test_transfer_carries_values_and_coordinates(shuffled: kfmaps.Match, tmp_path: Path) -> None:
     heights = V[:, 1]
     np.testing.assert_array_equal(shuffled.transfer(heights), heights[ORDER])
     np.testing.assert_array_equal(kfmaps.transfer(heights, shuffled.target_to_source), heights[ORDER])

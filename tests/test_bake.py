@@ -306,7 +306,7 @@ def test_a_texture_comes_in_as_it_went_out(glb: bytes, tmp_path: Path) -> None:
         lambda tree: tree["textures"][0].pop("source"),
     ],
 )
-def test_what_is_not_the_one_colour_texture_is_none(glb: bytes, edit: Any) -> None:
+def test_only_the_single_base_colour_texture_is_read(glb: bytes, edit: Any) -> None:
     found = parse_gltf(changed(glb, edit), "a.glb")
     assert found.uv is not None
     assert found.picture is None

@@ -113,7 +113,7 @@ def test_a_run_logs_what_is_replaced(run: tuple[Plan, list[Result]]) -> None:
     assert "b1 → b3 replaced by composition through b" in (plan.folder / "run.log").read_text(encoding="utf-8")
 
 
-def test_what_is_finished_is_found_again(run: tuple[Plan, list[Result]]) -> None:
+def test_a_finished_step_is_not_repeated(run: tuple[Plan, list[Result]]) -> None:
     plan, results = run
     first = make_consistent(plan, results, Alone())
     stamp = map_path(plan.folder / CONSISTENT, "b1-b3").stat().st_mtime_ns

@@ -48,7 +48,7 @@ def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
     assert read_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
 
 
-def test_what_cannot_be_a_collection(tmp_path: Path) -> None:
+def test_a_folder_that_is_no_collection_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match="no folder"):
         find_collection(tmp_path / "missing")
     with pytest.raises(InvalidInput, match="off/"):

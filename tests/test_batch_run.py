@@ -289,7 +289,7 @@ def test_one_run_at_a_time(tmp_path: Path) -> None:
             run_batch(plan)
 
 
-def test_what_killed_workers_left_is_taken_away(tmp_path: Path) -> None:
+def test_unfinished_files_of_killed_workers_are_removed(tmp_path: Path) -> None:
     plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
     (plan.folder / "maps").mkdir()
     left = [plan.folder / place / ".unfinished-0123456789ab.json" for place in (".", "pairs", "maps", "cache")]
@@ -301,7 +301,7 @@ def test_what_killed_workers_left_is_taken_away(tmp_path: Path) -> None:
     assert not left[1].exists()
 
 
-def test_what_other_runs_are_writing_to_a_shared_cache_stays(tmp_path: Path) -> None:
+def test_unfinished_files_of_other_runs_in_a_shared_cache_stay(tmp_path: Path) -> None:
     """``cache`` may be a link to a folder that several runs share."""
     shelf = tmp_path / "shelf"
     shelf.mkdir()

@@ -177,7 +177,7 @@ def test_existing_output_needs_force(made: types.SimpleNamespace) -> None:
         (("landmarks", "a.off", "b.off", "--no-browser", "-o"), "b.off"),
     ],
 )
-def test_what_is_read_is_not_replaced(
+def test_an_output_that_would_replace_an_input_is_refused(
     made: types.SimpleNamespace, words: tuple[str, ...], read: str, link: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(made.folder)

@@ -77,7 +77,9 @@ def test_settings_go_through_pipes(monkeypatch: pytest.MonkeyPatch) -> None:
         (["batch", "a", "-o", "-"], b"", "output -: expected a folder or a file with a name, got standard output."),
     ],
 )
-def test_what_streams_cannot_do(monkeypatch: pytest.MonkeyPatch, words: list[str], data: bytes, output: str) -> None:
+def test_streams_refuse_what_needs_files(
+    monkeypatch: pytest.MonkeyPatch, words: list[str], data: bytes, output: str
+) -> None:
     assert output in piped(monkeypatch, data, *words).error
 
 

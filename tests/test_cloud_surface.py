@@ -76,7 +76,7 @@ def test_points_of_a_quadric_stay_where_they_are(curved: float) -> None:
     assert noise == pytest.approx(0.01 / (0.33 * np.sqrt(40 / 750 / np.pi)), rel=0.15)
 
 
-def test_what_is_no_closed_surface_stays_a_cloud() -> None:
+def test_points_of_no_closed_surface_stay_a_cloud() -> None:
     rng = np.random.default_rng(0)
     flat = np.column_stack([rng.uniform(size=(800, 2)), np.zeros(800)])
     wavy = flat + np.column_stack([np.zeros((800, 2)), 0.1 * np.sin(5 * flat[:, 0])])

@@ -301,7 +301,7 @@ def test_a_right_alternative_comes_before_a_way_round() -> None:
     assert (change.edge, change.kind, change.candidate) == (2, "alternative", 1)
 
 
-def test_what_turns_inside_out_contradicts_itself() -> None:
+def test_a_map_that_turns_the_surface_inside_out_has_lower_odds() -> None:
     C = np.eye(20)
     kept, turned, reversed_one = candidate_maps(
         [ScoredMap(C, -5.0, 0.9), ScoredMap(C, -5.0, -0.9), ScoredMap(C, -5.0, 0.9, True)]
@@ -383,7 +383,7 @@ def test_a_family_of_wrong_candidates_does_not_outvote_better_evidence() -> None
         assert change.after.residual < 1e-6
 
 
-def test_what_is_one_map_is_not_two_candidates() -> None:
+def test_equal_maps_are_one_candidate() -> None:
     C = rotations(1, size=20)[0]
     one, near = ScoredMap(C, -6.0, 0.5), ScoredMap(C + 1e-3, -5.0, 0.7)
     assert with_better_score(one, near).score == -5.0

@@ -45,7 +45,7 @@ def test_the_order_of_vertices_does_not_matter() -> None:
     np.testing.assert_allclose(other, one[order], atol=1e-9)
 
 
-def test_what_has_no_surroundings_is_not_trusted() -> None:
+def test_an_isolated_vertex_has_no_local_confidence() -> None:
     loose = joined(blob(300), Mesh(np.array([[9.0, 9, 9]]), NO_FACES))
     found = local_confidence(loose, loose, np.arange(301))
     assert found[300] == 0

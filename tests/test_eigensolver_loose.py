@@ -31,7 +31,7 @@ def test_loose_pairs_are_nearly_the_exact_ones() -> None:
 
 @pytest.mark.parametrize("tolerance", [1e-10, 1e-2])
 @pytest.mark.parametrize("k", [100, 200])
-def test_what_is_told_of_the_progress_ends_near_one(k: int, tolerance: float) -> None:
+def test_reported_progress_ends_near_one(k: int, tolerance: float) -> None:
     """The solves that are counted are about as many as were expected, and no fewer are expected than there are."""
     calls: list[float] = []
     operator = operators(unit_area(blob(1500)))
@@ -40,7 +40,7 @@ def test_what_is_told_of_the_progress_ends_near_one(k: int, tolerance: float) ->
     assert len(set(calls)) == len(calls)
 
 
-def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_eigenpairs_that_need_double_precision_are_found_in_it(monkeypatch: pytest.MonkeyPatch) -> None:
     # Some edges very stiff, as those of needle triangles: what else their ends hang on drowns in rounding.
     stiffness, mass = operators(unit_area(blob(1500)))
     ends = np.random.default_rng(0).permutation(1500).reshape(-1, 2)

@@ -23,7 +23,7 @@ def refused(path: Path, content: bytes | None = None) -> str:
     return output
 
 
-def test_what_is_no_file(tmp_path: Path) -> None:
+def test_missing_empty_and_unknown_files_are_refused(tmp_path: Path) -> None:
     assert "nothing there" in refused(tmp_path / "none.off")
     assert "an empty file" in refused(tmp_path / "a.off", b"")
     (tmp_path / "folder.off").mkdir()

@@ -246,7 +246,7 @@ def lying_npz() -> bytes:
         (b"PK\3\4", "complete .npz file"),
     ],
 )
-def test_what_is_no_map(tmp_path: Path, content: bytes, part: str) -> None:
+def test_a_file_that_is_no_map_is_refused(tmp_path: Path, content: bytes, part: str) -> None:
     assert part in refused(tmp_path / "m.npz", content)
 
 

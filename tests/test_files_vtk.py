@@ -129,5 +129,5 @@ HEAD = b"# vtk DataFile Version 3.0\nv\nASCII\nDATASET "
         ("a.vtp", b"<VTKFile", "complete .vtp"),
     ],
 )
-def test_what_cannot_be_read_is_refused(tmp_path: Path, name: str, data: bytes, output: str) -> None:
+def test_bad_vtk_files_are_refused(tmp_path: Path, name: str, data: bytes, output: str) -> None:
     assert output in refusal(read_mesh_file, tmp_path / name, data)

@@ -102,7 +102,7 @@ def test_no_module_imports_itself_through_others() -> None:
         pytest.fail("imports go in a circle: " + " < ".join(error.args[1]))
 
 
-def test_what_goes_up_is_imported_when_it_is_called() -> None:
+def test_imports_from_higher_packages_stand_inside_functions() -> None:
     for module, other in UPWARD:
         body = ast.parse(MODULES[module].read_text(encoding="utf-8")).body
         top = [ast.unparse(node) for node in body if isinstance(node, ast.Import | ast.ImportFrom)]

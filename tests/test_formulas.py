@@ -70,7 +70,7 @@ def test_a_typical_pair_has_the_same_value_in_both_kernels_of_distance(bandwidth
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-5, 1e-9])
-def test_what_is_dropped_is_below_the_tolerance_and_what_is_kept_above(rtol, rng):
+def test_eigenvalues_below_the_tolerance_are_dropped(rtol, rng):
     X = rng.normal(size=(40, 2))
     values = np.linalg.eigvalsh(Gaussian(0.5)(X, X))[::-1]
     factor = nystrom(Gaussian(0.5), X, rtol)
@@ -201,7 +201,7 @@ def test_heat_is_all_there_and_decays_as_each_function_does(rng):
     np.testing.assert_allclose(basis.mass @ heat_signature(basis, times), trace)
 
 
-def test_what_comes_from_a_landmark_is_the_signature_there_and_goes_both_ways(rng):
+def test_a_landmark_map_is_symmetric_and_equals_the_signature_at_the_landmark(rng):
     basis, energies = random_basis(60, 9, rng), np.array([0.1, 0.7, 1.2])
     landmarks = np.array([4, 50, 7])
     for map_of, signature in (

@@ -36,7 +36,7 @@ def copied() -> list[str]:
     return [name for rest in steps("COPY") if not rest.startswith("--from") for name in rest.split()[:-1]]
 
 
-def test_what_is_copied_is_there_and_not_ignored() -> None:
+def test_files_copied_into_the_image_exist_and_are_not_ignored() -> None:
     kept = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
     assert set(copied()) == kept
     assert all((ROOT / name).exists() for name in copied())

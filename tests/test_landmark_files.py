@@ -44,7 +44,7 @@ def touch(path: Path, text: str) -> Path:
 
 
 @pytest.mark.parametrize("suffix", _FORMATS)
-def test_what_is_written_is_read_back(tmp_path: Path, suffix: str) -> None:
+def test_written_landmarks_are_read_back(tmp_path: Path, suffix: str) -> None:
     given = LandmarkSet(NAMES, POINTS, "one", "RAS", notes=("", "", "doubtful, see there"))
     write_landmark_sets(tmp_path / f"one{suffix}", [given])
     (read,) = read_landmark_sets(tmp_path / f"one{suffix}")

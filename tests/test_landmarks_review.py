@@ -95,7 +95,7 @@ def test_corrections_come_into_all_tables(study: Path, serving: ReviewServer) ->
         {"specimen": "b", "changes": [{"name": "a", "face": True, "weights": [1, 0, 0]}]},
     ],
 )
-def test_what_is_no_correction_is_refused(study: Path, serving: ReviewServer, request_: Any) -> None:
+def test_bad_corrections_are_refused(study: Path, serving: ReviewServer, request_: Any) -> None:
     before = tables(study)
     assert Client(serving).post("save", request_).status == 400
     assert tables(study) == before

@@ -101,7 +101,7 @@ def test_other_origins_are_refused(serve: Serve, tmp_path: Path, origin: str) ->
     assert not (tmp_path / "pairs.txt").exists()
 
 
-def test_what_another_site_caused_is_refused_but_the_page_opens_from_the_file_with_its_address(serve: Serve) -> None:
+def test_requests_of_other_sites_are_refused_but_the_page_opens_from_the_file_with_its_address(serve: Serve) -> None:
     """A window that a file leads there comes from elsewhere, as browsers see it. It gets the page and nothing more."""
     client = serve()
     for site, status in (("cross-site", 403), ("same-site", 403), ("none", 200)):
@@ -400,9 +400,7 @@ def test_the_map_of_a_run_is_saved(serve: Serve, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("opening", [b"", b"GET /", b"POST {path}save HTTP/1.1\r\nContent-Length: 900\r\n"])
-def test_who_sends_a_byte_now_and_then_is_not_kept(
-    serve: Serve, opening: bytes, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_slow_sender_is_disconnected(serve: Serve, opening: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     """A request has so many seconds in all, however the bytes of it are spread."""
     monkeypatch.setattr("kfmaps.viz.server._MAX_SECONDS", 0.5)
     client = serve()
@@ -416,7 +414,7 @@ def test_who_sends_a_byte_now_and_then_is_not_kept(
                     break
 
 
-def test_who_never_reads_the_answer_is_not_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_client_that_never_reads_is_disconnected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kfmaps.viz.server._MAX_SECONDS", 0.2)
     closed, close = threading.Event(), HTTP1Connection.close
     monkeypatch.setattr(HTTP1Connection, "close", lambda self: (close(self), closed.set()))

@@ -145,7 +145,7 @@ def test_landmarks_that_a_template_lacks_come_from_the_others(scans: Path, tmp_p
     assert one.flags == ("",) * 5
 
 
-def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
+def test_a_scan_that_fits_no_template_is_left_out(scans: Path, tmp_path: Path) -> None:
     templates = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
     results = maps(tmp_path, [("a", name) for name in "bcd"])
     results[Pair("a", "b")] = replace(results[Pair("a", "b")], verdict="unlikely", confidence=0.12)

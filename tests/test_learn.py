@@ -88,7 +88,7 @@ def shaken(model, size=0.3):
 
 
 @pytest.mark.parametrize("parts", PARTS, ids="+".join)
-def test_what_is_learned_is_what_the_settings_say(parts, lessons):
+def test_learned_settings_give_the_kernel_of_the_model(parts, lessons):
     model = shaken(Model(CONFIG, lessons, parts, rank=ROWS))
     D_s, D_t = lessons[0].descriptors_s, lessons[0].descriptors_t
     with torch.no_grad():

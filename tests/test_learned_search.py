@@ -52,7 +52,7 @@ def test_a_metric_that_knows_nothing_changes_no_digit(creature):
     assert found.score.initialization == usual.score.initialization
 
 
-def test_what_was_learned_stays_out_of_the_searchs_own_fits():
+def test_fits_of_a_search_leave_the_learned_kernel_out():
     config = taught(np.eye(COUNT)[:2].tolist())
     own = drop_learned(config)
     assert own == replace(CONFIG, kernel=Config.single_fit().kernel)

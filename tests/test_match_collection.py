@@ -77,7 +77,7 @@ def test_without_maps_pairs_are_matched(shapes: dict[str, Shape]) -> None:
     assert max(m.max() for m in found.maps) < N
 
 
-def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
+def test_bad_input_to_match_collection_is_refused(shapes: dict[str, Shape]) -> None:
     two = {name: shapes[name] for name in ("s0", "s1")}
     refused: list[tuple[dict[str, Shape], dict[str, Any], str]] = [
         ({"s0": shapes["s0"]}, {}, "shapes"),

@@ -184,7 +184,7 @@ def test_a_whole_body_is_not_registered_onto_something_else(shapes: tuple[kfmaps
     assert len(found.precise().faces) == len(other.mesh.vertices)
 
 
-def test_what_cannot_be_registered_is_refused(pair: datasets.ExamplePair) -> None:
+def test_a_cloud_and_bad_settings_cannot_be_registered(pair: datasets.ExamplePair) -> None:
     with pytest.raises(InvalidInput, match="point cloud"):
         NonRigid()(cloud_of(pair.source), pair.target, pair.truth)
     for make in (lambda: NonRigid(stiffness=0.0), lambda: NonRigid(n_levels=0), lambda: NonRigid(steps=0)):

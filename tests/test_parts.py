@@ -396,7 +396,7 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
         ("ambiguous", 0.4, 0.05, "target", "sure", "part", ["part"]),  # as asked for
     ],
 )
-def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
+def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     monkeypatch, small, word, output, opening, asked, whole, expected, steps
 ):
     tried = []
@@ -437,7 +437,7 @@ def test_what_is_not_surely_a_part_may_be_a_whole_with_holes(
         ("sure", "auto", 0.25, 0.99, 0.8, "part"),  # the opposite is not even tried
     ],
 )
-def test_what_is_open_may_have_more_than_what_is_closed(
+def test_an_open_scan_may_hold_all_of_a_closed_shape(
     monkeypatch, small, word, asked, scale, output, scale_of_opposite, expected
 ):
     """A scan with its floor holds a whole body, so the closed shape may be the part."""

@@ -142,7 +142,7 @@ def test_a_mirror_image_is_folded(laid):
     assert lay(more=inside_out(part)).flipped_area > 0.5
 
 
-def test_what_lies_beyond_the_whole_is_let_alone(shapes):
+def test_points_beyond_the_whole_are_not_pulled_to_its_boundary(shapes):
     """The whole onto its half: what has nothing to lie on is not drawn to its edge, and counts as outside."""
     whole, half, own = shapes
     size = float(np.sqrt(surface_area(half)))

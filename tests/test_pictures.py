@@ -223,7 +223,7 @@ def test_automatic_view_finds_a_tilted_plate() -> None:
     assert viz.automatic_view(plate).towards @ normal > 0.9
 
 
-def test_what_stands_on_feet_is_seen_upright() -> None:
+def test_a_shape_on_feet_is_drawn_upright() -> None:
     legs = [ball(100, (0, y, 0.0), 0.15) for y in (-1, 1)]
     parts = [ball(300, (0, y, 1.0), 0.4) for y in (-1, -0.5, 0, 0.5, 1)] + legs
     parts += [ball(100, (0, y, z), 0.15) for y in (-1, 1) for z in (0.2, 0.4, 0.6)]

@@ -18,7 +18,7 @@ from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, stage_line
 from kfmaps.shape import prepare
 
 
-def test_what_is_left_follows_from_what_is_done() -> None:
+def test_remaining_time_follows_from_the_finished_share() -> None:
     """A quarter done in ten seconds leaves thirty; nothing done leaves what such a stage took before."""
     assert stage_line("solve", 0, 10) == "solve: 10 s so far"
     assert stage_line("solve", 0, 10, before=25) == "solve: 10 s so far, about 15 s left"

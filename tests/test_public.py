@@ -27,7 +27,7 @@ RECORDS = {"Basis", "Config", "Energy", "Kernel", "KernelLike", "Mesh", "MeshFil
 RECORDS |= {"Term", "View"}
 
 
-def test_what_type_checkers_read_is_what_is_imported() -> None:
+def test_the_stub_names_what_is_imported() -> None:
     """Every import of the stub, read by Python's own parser, is a public name, and from the module that it names."""
     seen = {}
     for node in ast.parse(STUB.read_text(encoding="utf-8")).body:

@@ -238,7 +238,7 @@ def test_shot_errors_are_asked_for_where_two_are_close(creature_pair, monkeypatc
         assert len(asked) == 2 * wanted
 
 
-def test_what_is_far_behind_is_not_looked_at(creature_pair):
+def test_shot_errors_of_candidates_far_behind_are_not_computed(creature_pair):
     one = replace(creature_pair.right, strain=0.0)
     behind = [
         replace(one, strain=s / SCORE.w_strain) for s in (0.0, SCORE.hopeless_margin - 1, SCORE.hopeless_margin + 1)

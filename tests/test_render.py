@@ -245,7 +245,7 @@ def test_resolution_and_targets_by_name(output: Path, render: Callable[..., Path
     assert both.shape[1] == pytest.approx(1.5 * one.shape[1], abs=2)
 
 
-def test_what_the_command_refuses(output: Path, tmp_path: Path, render: Callable[..., Path]) -> None:
+def test_render_refuses_bad_arguments(output: Path, tmp_path: Path, render: Callable[..., Path]) -> None:
     for arguments, message in (
         (("grid", output, "--source", "x"), "matched as a source"),
         (("grid", output, "--source", "b0", "--targets", "b9"), "b9"),

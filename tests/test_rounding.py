@@ -145,7 +145,7 @@ def test_icp_turns_nothing_that_the_points_say_nothing_of(shape):
     np.testing.assert_allclose(C, np.outer(np.sign(basis.functions[0, 0]) * np.eye(10)[0], image), atol=1e-9)
 
 
-def test_what_a_solver_returns_is_finite():
+def test_a_solver_returns_finite_values():
     """The operator loses its senses after two steps."""
     calls = []
 

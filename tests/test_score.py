@@ -112,7 +112,7 @@ def test_a_probability_does_not_depend_on_how_exact_reflections_are() -> None:
     assert worse.calibrated_score == QUALITY.calibrated_score == QUALITY.score
 
 
-def test_what_is_not_known_costs_nothing() -> None:
+def test_unknown_evidence_costs_nothing() -> None:
     plain = replace(CANDIDATE.unregistered, landmark_errors=np.zeros(0))
     assert all(getattr(plain, name) is None for name in REGISTERED)
     assert candidate_score(plain) == pytest.approx(QUALITY.score - 8 * 0.3)

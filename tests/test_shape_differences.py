@@ -93,7 +93,7 @@ def test_one_way_of_changing_is_one_component() -> None:
     assert components(matrices[:2], 9).scores.shape == (2, 1)
 
 
-def test_what_is_larger_is_denser_there() -> None:
+def test_the_density_of_a_shape_difference_shows_where_area_is_larger() -> None:
     """One function stands for one region; a shape in which it is larger has more area there and nowhere else."""
     own, links, found, values = collection([np.eye(K), np.diag([1, 1, 1, 1, 1, 1, 1, 1.3])])
     latent = limit_shape(found.latent, first_maps(links), values)
@@ -126,7 +126,7 @@ def test_a_latent_function_that_a_shape_hardly_has_does_not_count_there() -> Non
     np.testing.assert_allclose(of(1 / 15), each / whole, rtol=1e-6)
 
 
-def test_what_hangs_together_not_has_no_common_basis() -> None:
+def test_unconnected_shapes_have_no_common_basis() -> None:
     C = np.eye(K)
     links = [Edge(0, 1, (CandidateMap(C),)), Edge(2, 3, (CandidateMap(C),))]
     found, values = synchronize(4, links, K), np.tile(VALUES, (4, 1))

@@ -500,7 +500,7 @@ def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, symmetr
     assert finalists > candidates_module._N_CLEAR_FINALISTS
 
 
-def test_what_the_user_says_is_heard(monkeypatch, symmetric):
+def test_descriptors_and_landmarks_of_the_user_take_part(monkeypatch, symmetric):
     shapes = symmetric.source, symmetric.target
     given = [np.random.default_rng(i).normal(size=(len(shape.mesh.vertices), 2)) for i, shape in enumerate(shapes)]
     assert "SHOT" in names(monkeypatch, symmetric, -np.inf, descriptors=tuple(given))[0]

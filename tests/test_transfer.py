@@ -222,7 +222,7 @@ def test_a_permutation_of_the_target_permutes_what_is_carried(made: types.Simple
     np.testing.assert_allclose(other, plain[order], atol=2e-3 * np.abs(plain).max())
 
 
-def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> None:
+def test_a_transfer_that_is_impossible_is_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
     source, target = made.pair.source, made.pair.target
     ones = np.ones((len(source.vertices), 1))
     for values, products, words in (
