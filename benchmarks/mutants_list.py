@@ -934,9 +934,19 @@ MUTANTS = tuple(
             "test_score -k landmarks_support",
         ),
         (
-            "rejected = state.rejected & (state.rejected.all() | (errors",
-            "rejected = state.rejected | (state.rejected.all() | (errors",
+            "rejected = final_landmark_errors(best, state) > max_landmark_error(quality)",
+            "rejected = state.rejected",
+            "test_landmark_evidence -k final_map_contradicts",
+        ),
+        (
+            "rejected = final_landmark_errors(best, state) > max_landmark_error(quality)",
+            "rejected = state.rejected",
             "test_landmark_evidence -k rejected_no_longer",
+        ),
+        (
+            "if state.rejected.any() and state.rejected.all()",
+            "if False",
+            "test_registration_evidence -k contradicts_most",
         ),
         (
             "np.minimum(errors, evidence.distances[",

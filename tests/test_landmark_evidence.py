@@ -126,6 +126,20 @@ def test_a_landmark_that_the_map_keeps_to_is_rejected_no_longer(creatures, monke
     np.testing.assert_array_equal(found.landmarks, np.delete(at, 1, axis=0))
 
 
+def test_a_landmark_that_the_final_map_contradicts_is_left_out(creatures, monkeypatch) -> None:
+    """Also where too few are right for a rough map to reject it: it would tear the map on all vertices."""
+    source, target, _ = creatures
+    only_the_truth(creatures, monkeypatch)
+    monkeypatch.setattr(search_module, "contradicted_landmarks", lambda _state: (np.zeros(2, dtype=bool), ()))
+    at = spread_out(creatures, 2)
+    at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
+    found = search_module.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
+    assert found._search is not None
+    assert not found._search.rejected.any()
+    assert found.rejected_landmarks.tolist() == [1]
+    np.testing.assert_array_equal(found.landmarks, at[:1])
+
+
 def test_final_landmark_errors_are_those_of_functions_or_of_the_registration(creatures) -> None:
     """Whichever are less; the registration may be of either shape onto the other."""
     source, target, truth = creatures

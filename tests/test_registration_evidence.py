@@ -301,6 +301,7 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         search, "contradicted_landmarks", lambda state: (np.zeros(2, dtype=bool), ((state.ranked[0], 0.3),))
     )
     monkeypatch.setattr(search, "final_landmark_errors", lambda *_: np.array(errors))
+    monkeypatch.setattr(search_result, "final_landmark_errors", lambda _best, state: np.zeros(len(state.landmarks)))
     monkeypatch.setattr(search, "contradicts_most", lambda best, given: compared.append((best.name, given)))
     result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     samples, how = asked[0]
@@ -391,6 +392,7 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
     assert result.initialization == ("truth" if outcome == "rejected" else "led")
     assert state.rejected.all() == (outcome == "rejected")
     assert result.retries == (() if outcome == "rejected" else (right,))
+    assert len(result.rejected_landmarks) == (3 if outcome == "rejected" else np.greater(errors, 0.3).sum())
     assert [(c.name, round(margin, 6)) for c, margin in state.doubts] == (
         [("truth", -gain)] if outcome == "doubted" else []
     )

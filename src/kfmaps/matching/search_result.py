@@ -76,9 +76,11 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     alternatives = [*(c for c, _ in doubts), *rest][: config.search.n_alternatives]
     scores = [best.score, *(best.score - margin for _, margin in doubts), *(c.score for c in rest)]
     evidence, quality = calibrated_evidence(state, best, rest), best.quality.calibrated_score
-    # A landmark that a rough map contradicts, on a tail say, may be right by the registered map made without it.
-    errors = final_landmark_errors(best, state)
-    rejected = state.rejected & (state.rejected.all() | (errors > max_landmark_error(quality)))
+    # A landmark that a rough map contradicts, on a tail say, may be right by the registered map made without it. One
+    # that the final map contradicts would tear it in the refinement on all vertices.
+    rejected = final_landmark_errors(best, state) > max_landmark_error(quality)
+    if state.rejected.any() and state.rejected.all():
+        rejected = state.rejected
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in alternatives]
     unlike = not is_near_isometric(quality)
     return SearchResult(
