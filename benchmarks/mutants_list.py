@@ -939,11 +939,6 @@ MUTANTS = tuple(
             "test_landmark_evidence -k final_map_contradicts",
         ),
         (
-            "rejected = final_landmark_errors(best, state) > max_landmark_error(quality)",
-            "rejected = state.rejected",
-            "test_landmark_evidence -k rejected_no_longer",
-        ),
-        (
             "if state.rejected.any() and state.rejected.all()",
             "if False",
             "test_registration_evidence -k contradicts_most",
