@@ -1089,7 +1089,7 @@ MUTANTS = tuple(
         ),
         ("if gain > -SCORE.close_margin and", "if gain > 0 and", "test_registration_evidence -k contradicts_most"),
         (" and state.samples.fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
-        (", landmarks_count=False)", ")", "test_registration_evidence -k contradicts_most"),
+        (", trust_landmarks=False)", ")", "test_registration_evidence -k contradicts_most"),
         (
             "is_same = is_same and map_distance",
             "is_same = True or map_distance",

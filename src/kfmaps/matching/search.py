@@ -18,7 +18,7 @@ mirrored, or mirrored on half of the body. A search therefore compares many maps
 7. Between unlike shapes the best candidates, or the best alone where it is "sure", are registered and refined in turn,
    and ranked again (:mod:`~kfmaps.matching.registration_refine`).
 8. The best candidate becomes the result, with alternatives, margins and a verdict
-   (:mod:`~kfmaps.matching.search_result`).
+   (:mod:`~kfmaps.matching.search_result`). With landmarks it is compared with the result without them.
 
 Some candidates are refined without descriptors. They show whether an entirely different map would be as good, in which
 case the verdict is "ambiguous".
@@ -253,7 +253,7 @@ def _compare_with_free(
         given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
         return _settled_result(found, given)[0] or result
     if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
-        state = replace(state, doubts=(*state.doubts, (best, -gain)), landmarks_count=False)
+        state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
         return _result(state, retries)
     return result
 

@@ -37,4 +37,4 @@ class SearchState:
     # without them. Landmarks with left and right exchanged agree with one of any body that is nearly its own image.
     may_reverse: bool = True
     # Whether landmarks raise the probability: not where they contradict a map that is about as good without them.
-    landmarks_count: bool = True
+    trust_landmarks: bool = True
