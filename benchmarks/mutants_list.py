@@ -934,14 +934,19 @@ MUTANTS = tuple(
             "test_score -k landmarks_support",
         ),
         (
-            "rejected = final_landmark_errors(best, state) > max_landmark_error(quality)",
-            "rejected = state.rejected",
+            "state.rejected if state.rejected.all() else contradicted_by(best, state)",
+            "state.rejected",
             "test_landmark_evidence -k final_map_contradicts",
         ),
         (
-            "if state.rejected.any() and state.rejected.all()",
-            "if False",
+            "state.rejected if state.rejected.all() else",
+            "state.rejected if False else",
             "test_registration_evidence -k contradicts_most",
+        ),
+        (
+            "max(initial=float(samples.distances.max()))",
+            "max(initial=0.0)",
+            "test_search -k small_component",
         ),
         (
             "np.minimum(errors, evidence.distances[",

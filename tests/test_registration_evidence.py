@@ -301,8 +301,13 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         search, "contradicted_landmarks", lambda state: (np.zeros(2, dtype=bool), ((state.ranked[0], 0.3),))
     )
     monkeypatch.setattr(search, "final_landmark_errors", lambda *_: np.array(errors))
-    monkeypatch.setattr(search_result, "final_landmark_errors", lambda _best, state: np.zeros(len(state.landmarks)))
-    monkeypatch.setattr(search, "contradicts_most", lambda best, given: compared.append((best.name, given)))
+
+    def contradicted(best, state):
+        compared.append((best.name, state))
+        return np.zeros(len(state.landmarks), dtype=bool)
+
+    monkeypatch.setattr(search, "contradicted_by", contradicted)
+    monkeypatch.setattr(search_result, "contradicted_by", lambda _best, state: np.zeros(len(state.landmarks), bool))
     result = search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
     samples, how = asked[0]
     assert how.get("landmarks") is None
@@ -382,7 +387,7 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
     def landmark_errors(_best, state):
         return np.array(errors)[: len(state.landmarks)]
 
-    for module in (search, search_result, landmark_conflicts):
+    for module in (search, landmark_conflicts):
         monkeypatch.setattr(module, "final_landmark_errors", landmark_errors)
     monkeypatch.setattr(search_result, "support_of_landmarks", lambda *_: 0.98)
     # Those that the best map itself contradicts have been rejected by then.
@@ -430,7 +435,7 @@ def test_a_map_that_landmarks_hardly_change_is_as_probable_as_without_them(
     )
     free = replace(state, ranked=[right], doubts=(), orientation=orientation)
     found = build_result(free, right, [])
-    monkeypatch.setattr(search, "contradicts_most", lambda *_: misses)
+    monkeypatch.setattr(search, "contradicted_by", lambda *_: np.array([misses]))
     assert map_distance(right, state.ranked[0], pair.fine.source) > SCORE.twin_distance or shift == 0
     alone = build_result(state, state.ranked[0], [])
     assert alone.verdict == "ambiguous"

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from conftest import NO_FACES, NO_LANDMARKS, SMALL, blob
+from conftest import NO_FACES, NO_LANDMARKS, SMALL, blob, joined
 from kfmaps.config import BasisConfig, Search
 from kfmaps.fmap.descriptor_guidance import combine_guidance, descriptor_guidance
 from kfmaps.fmap.precise import nearest_vertices
@@ -158,17 +158,31 @@ def test_a_large_shape_is_scored_on_a_coarse_proxy(monkeypatch):
     shape = prepare(blob(1500), SMALL)
     whole: Any = sample_for_scoring(shape, 200)
     samples = whole.samples.vertices
-    from_landmarks = [landmark_distances(shape, samples, np.array([7, samples[3]]))]
+    from_landmarks = [landmark_distances(shape, whole, np.array([7, samples[3]]))]
     monkeypatch.setattr("kfmaps.matching.quality.MAX_SURFACE_VERTICES", 900)
     assert len(sample_surface(shape, np.arange(10))[0].vertices) < 950
     less: Any = sample_for_scoring(shape, 200)
     np.testing.assert_array_equal(less.samples.vertices, samples)
-    from_landmarks.append(landmark_distances(shape, samples, np.array([7, samples[3]])))
+    from_landmarks.append(landmark_distances(shape, less, np.array([7, samples[3]])))
     np.testing.assert_array_equal([distances[1, 3] for distances in from_landmarks], 0.0)
     for a, b in ((less.distances, whole.distances), from_landmarks):
         assert np.abs(a - b).mean() < 0.03 * b.mean()
     change = np.linalg.norm(less.orientation - whole.orientation) / np.linalg.norm(whole.orientation)
     assert change < 0.2
+
+
+def test_a_landmark_on_a_small_component_is_far_from_the_others():
+    """As one on an eyeball is from the head: as far as the farthest samples are from each other."""
+    body, eye = blob(600), blob(60)
+    shape = prepare(
+        joined(body, Mesh(0.2 * eye.vertices + 3.0, eye.faces)),
+        replace(SMALL, descriptors=replace(SMALL.descriptors, shot=False)),
+    )
+    samples = sample_for_scoring(shape, 200)
+    found = landmark_distances(shape, samples, np.array([610]))[0]
+    on_eye = samples.samples.vertices >= 600
+    assert 0 < found[on_eye].max() < 0.5 < samples.distances.max()
+    np.testing.assert_array_equal(found[~on_eye], samples.distances.max())
 
 
 def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):

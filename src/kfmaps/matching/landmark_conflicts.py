@@ -62,9 +62,9 @@ def is_most(contradicted: np.ndarray) -> bool:
     return 2 * int(contradicted.sum()) > len(contradicted)
 
 
-def contradicts_most(best: Candidate, state: SearchState) -> bool:
-    """Return whether a final candidate contradicts most of the landmarks of ``state``."""
-    return is_most(final_landmark_errors(best, state) > max_landmark_error(best.quality.calibrated_score))
+def contradicted_by(best: Candidate, state: SearchState) -> np.ndarray:
+    """Return which landmarks (l,) bool of ``state`` a final candidate contradicts."""
+    return final_landmark_errors(best, state) > max_landmark_error(best.quality.calibrated_score)
 
 
 def rank_by_surface(state: SearchState) -> list[Candidate]:

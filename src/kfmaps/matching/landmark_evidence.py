@@ -16,7 +16,7 @@ from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import DIMENSIONS, DescriptorGuidance, combine_guidance, descriptor_guidance
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_graph
-from kfmaps.matching.quality import sample_surface
+from kfmaps.matching.quality import ShapeSamples, sample_surface
 from kfmaps.shape import Shape
 
 _HEAT_TIMES = (0.004, 0.02, 0.1)
@@ -75,15 +75,17 @@ def heat_guidance(functions_s: np.ndarray, functions_t: np.ndarray) -> Descripto
     return DescriptorGuidance(centred[: len(flat[0])], centred[len(flat[0]) :])
 
 
-def landmark_distances(shape: Shape, samples: np.ndarray, landmarks: np.ndarray) -> np.ndarray:
-    """Return the geodesic distances (l, q) from landmarks to samples, in √area; both are vertices of ``shape``.
+def landmark_distances(shape: Shape, samples: ShapeSamples, landmarks: np.ndarray) -> np.ndarray:
+    """Return the geodesic distances (l, q) from ``landmarks (l,)``, vertices of ``shape``, to its samples, in √area.
 
-    Separate components are as far apart as the farthest points of one.
+    Separate components are as far apart as the farthest samples or landmarks.
     """
-    mesh, _, rows = sample_surface(shape, np.concatenate([samples, landmarks]))
-    distances = dijkstra(geodesic_graph(mesh, 1), indices=rows[len(samples) :])[:, rows[: len(samples)]]
+    vertices = samples.samples.vertices
+    mesh, _, rows = sample_surface(shape, np.concatenate([vertices, landmarks]))
+    distances = dijkstra(geodesic_graph(mesh, 1), indices=rows[len(vertices) :])[:, rows[: len(vertices)]]
     is_finite = np.isfinite(distances)
-    return np.where(is_finite, distances, distances[is_finite].max(initial=0.0))
+    farthest = distances[is_finite].max(initial=float(samples.distances.max()))
+    return np.where(is_finite, distances, farthest)
 
 
 def landmark_errors(C: np.ndarray, functions_s: np.ndarray, evidence: LandmarkEvidence) -> np.ndarray:

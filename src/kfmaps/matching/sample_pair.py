@@ -102,7 +102,7 @@ def two_level_samples(
     if landmarks is not None and len(landmarks):
         sides = zip((source, target), shape_samples, landmarks.T, strict=True)
         heat = [heat_features(p.samples.basis, shape.basis, at) for shape, p, at in sides]
-        distances = landmark_distances(source, shape_samples[0].samples.vertices, landmarks[:, 0])
+        distances = landmark_distances(source, shape_samples[0], landmarks[:, 0])
         evidence = LandmarkEvidence(target.basis.functions[landmarks[:, 1]], distances, *heat)
     coarse = subsample(shape_samples[0], COARSE_SAMPLES), subsample(shape_samples[1], COARSE_SAMPLES)
     subsampled = evidence and evidence.subsample(*(len(p.samples.vertices) for p in coarse))

@@ -48,9 +48,10 @@ from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.initial_maps import Start, drop_learned
 from kfmaps.matching.landmark_conflicts import (
+    contradicted_by,
     contradicted_landmarks,
-    contradicts_most,
     final_landmark_errors,
+    is_most,
     without_landmark_errors,
 )
 from kfmaps.matching.landmark_evidence import build_guidance
@@ -237,11 +238,12 @@ def _compare_with_free(
     Where it contradicts few and both are nearly the same map, that is as probable as without landmarks at least.
     ``given``: before the search, with all landmarks.
     """
-    result, free = _result(state, retries), found and found._search
+    free = found and found._search
     if found is None or free is None:
-        return result
+        return _result(state, retries)
     best, led = free.ranked[0], state.ranked[0]
-    if not contradicts_most(best, given):
+    if not is_most(contradicted_by(best, given)):
+        result = _result(state, retries)
         is_same = found.orientation == state.orientation
         is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
         if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
@@ -251,11 +253,10 @@ def _compare_with_free(
     if gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
         given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
-        return _settled_result(found, given)[0] or result
+        return _settled_result(found, given)[0] or _result(state, retries)
     if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
-        return _result(state, retries)
-    return result
+    return _result(state, retries)
 
 
 def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[SearchResult | None, bool]:

@@ -13,14 +13,13 @@ from kfmaps.fmap.zoomout import MAX_CANDIDATES, MAX_EXACT_PAIRS
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
-from kfmaps.matching.landmark_conflicts import final_landmark_errors, support_of_landmarks
+from kfmaps.matching.landmark_conflicts import contradicted_by, support_of_landmarks
 from kfmaps.matching.registration_refine import SwappedRepair
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
     is_near_isometric,
     landmark_cost,
-    max_landmark_error,
     probability,
     verdict,
 )
@@ -78,9 +77,7 @@ def build_result(state: SearchState, best: Candidate, rest: list[Candidate]) -> 
     evidence, quality = calibrated_evidence(state, best, rest), best.quality.calibrated_score
     # A landmark that a rough map contradicts, on a tail say, may be right by the registered map made without it. One
     # that the final map contradicts would tear it in the refinement on all vertices.
-    rejected = final_landmark_errors(best, state) > max_landmark_error(quality)
-    if state.rejected.any() and state.rejected.all():
-        rejected = state.rejected
+    rejected = state.rejected if state.rejected.all() else contradicted_by(best, state)
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in alternatives]
     unlike = not is_near_isometric(quality)
     return SearchResult(
