@@ -1088,13 +1088,15 @@ MUTANTS = tuple(
         ),
         ("if settled is None:", "if True:", "test_registration_evidence -k only_refine"),
         (
-            "if gain > SCORE.close_margin and found",
-            "if gain > 0 and found",
+            "and gain > SCORE.close_margin and found",
+            "and gain > 0 and found",
             "test_registration_evidence -k contradicts_most",
         ),
         ("if gain > -SCORE.close_margin and", "if gain > 0 and", "test_registration_evidence -k contradicts_most"),
         (" and state.samples.fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
         (", trust_landmarks=False)", ")", "test_registration_evidence -k contradicts_most"),
+        ("if is_most(~contradicted)", "if not is_most(contradicted)", "test_registration_evidence -k contradicts_most"),
+        ("if is_most(contradicted) and gain", "if gain", "test_registration_evidence -k contradicts_most"),
         (
             "is_same = is_same and map_distance",
             "is_same = True or map_distance",

@@ -348,6 +348,8 @@ def test_landmarks_only_refine_a_sure_map_that_keeps_to_them(
         ("ambiguous", -0.9, [0.4, 0.4, 0.0], "doubted"),
         ("ambiguous", -1.1, [0.4, 0.4, 0.0], "followed"),
         ("ambiguous", 0.5, [0.4, 0.0, 0.0], "followed"),
+        ("ambiguous", 0.5, [0.4, 0.0], "doubted"),
+        ("sure", 1.5, [0.4, 0.0], "doubted"),
         ("unlikely", 0.5, [0.4, 0.4, 0.0], "a turn keeps the shapes"),
     ],
 )
@@ -356,8 +358,9 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
 ):
     """One that is clearly better and likely rejects all; one that is not clearly worse takes their support."""
     pair, right = creature_pair, creature_pair.right
-    landmarks = np.stack([pair.truth[[5, 300, 700]], [5, 300, 700]], axis=1)
-    config, nobody = replace(kfmaps.Config(), threads=1), np.zeros(3, dtype=bool)
+    at = [5, 300, 700][: len(errors)]
+    landmarks = np.stack([pair.truth[at], at], axis=1)
+    config, nobody = replace(kfmaps.Config(), threads=1), np.zeros(len(at), dtype=bool)
     reflections = (None, None if outcome == "a turn keeps the shapes" else np.eye(5))
     sides = (
         replace(side, reflection_map=C)
@@ -391,13 +394,13 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
         monkeypatch.setattr(module, "final_landmark_errors", landmark_errors)
     monkeypatch.setattr(search_result, "support_of_landmarks", lambda *_: 0.98)
     # Those that the best map itself contradicts have been rejected by then.
-    led = replace(given, ranked=[other], rejected=np.array([False, False, True]))
+    led = replace(given, ranked=[other], rejected=np.arange(len(at)) == len(at) - 1)
     result: Any = search._compare_with_free(found, led, (right,), given)
     state = result._search
     assert result.initialization == ("truth" if outcome == "rejected" else "led")
     assert state.rejected.all() == (outcome == "rejected")
     assert result.retries == (() if outcome == "rejected" else (right,))
-    assert len(result.rejected_landmarks) == (3 if outcome == "rejected" else np.greater(errors, 0.3).sum())
+    assert len(result.rejected_landmarks) == (len(at) if outcome == "rejected" else np.greater(errors, 0.3).sum())
     assert [(c.name, round(margin, 6)) for c, margin in state.doubts] == (
         [("truth", -gain)] if outcome == "doubted" else []
     )

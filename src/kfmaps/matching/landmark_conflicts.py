@@ -57,9 +57,9 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     return rejected, ((free, -gain),)
 
 
-def is_most(contradicted: np.ndarray) -> bool:
-    """Return whether a map contradicts most landmarks: ``contradicted (l,)`` bool."""
-    return 2 * int(contradicted.sum()) > len(contradicted)
+def is_most(which: np.ndarray) -> bool:
+    """Return whether more than half of the landmarks, ``which (l,)`` bool, are among those meant."""
+    return 2 * int(which.sum()) > len(which)
 
 
 def contradicted_by(best: Candidate, state: SearchState) -> np.ndarray:

@@ -234,15 +234,16 @@ def _compare_with_free(
 
     Where ``found`` contradicts most landmarks, as if left and right were exchanged, and is "sure" or "likely" and
     clearly better, it rejects all and is the result. Of unlike shapes only repaired maps show which is better.
-    Otherwise it casts a doubt if it is not clearly worse, unless a turn may keep the shapes: then landmarks decide.
-    Where it contradicts few and both are nearly the same map, that is as probable as without landmarks at least.
-    ``given``: before the search, with all landmarks.
+    Otherwise, and where it contradicts half of them, it casts a doubt if it is not clearly worse, unless a turn may
+    keep the shapes: then landmarks decide. Where it keeps to most, and both are nearly the same map, that is as
+    probable as without landmarks at least. ``given``: before the search, with all landmarks.
     """
     free = found and found._search
     if found is None or free is None:
         return _result(state, retries)
     best, led = free.ranked[0], state.ranked[0]
-    if not is_most(contradicted_by(best, given)):
+    contradicted = contradicted_by(best, given)
+    if is_most(~contradicted):
         result = _result(state, retries)
         is_same = found.orientation == state.orientation
         is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
@@ -250,7 +251,7 @@ def _compare_with_free(
             return replace(result, confidence=found.confidence, verdict=found.verdict)
         return result
     gain = without_landmark_errors(best).score - without_landmark_errors(led).score
-    if gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
+    if is_most(contradicted) and gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
         given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
         return _settled_result(found, given)[0] or _result(state, retries)
