@@ -1095,7 +1095,11 @@ MUTANTS = tuple(
         ("if gain > -SCORE.close_margin and", "if gain > 0 and", "test_registration_evidence -k contradicts_most"),
         (" and state.samples.fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
         (", trust_landmarks=False)", ")", "test_registration_evidence -k contradicts_most"),
-        ("if is_most(~contradicted)", "if not is_most(contradicted)", "test_registration_evidence -k contradicts_most"),
+        (
+            "if is_same or is_most(~contradicted)",
+            "if is_same or not is_most(contradicted)",
+            "test_registration_evidence -k contradicts_most",
+        ),
         ("if is_most(contradicted) and gain", "if gain", "test_registration_evidence -k contradicts_most"),
         (
             "is_same = is_same and map_distance",

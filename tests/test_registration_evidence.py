@@ -369,7 +369,7 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
     fine = replace(pair.fine, **dict(zip(("source", "target"), sides, strict=True)))
     samples = replace(pair.samples, fine=fine)
     quality = replace(right.quality, distortion=right.quality.distortion + gain / SCORE.w_distortion)
-    other = replace(right, name="led", quality=quality)
+    other = replace(right, name="led", quality=quality, points=np.roll(right.points, 1))
     free: Any = SearchState(
         pair.source,
         pair.target,
@@ -415,7 +415,8 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
         (0, "preserving", False, True),
         (1, "preserving", False, False),
         (0, "reversing", False, False),
-        (0, "preserving", True, False),
+        (0, "preserving", True, True),
+        (1, "preserving", True, False),
     ],
 )
 def test_a_map_that_landmarks_hardly_change_is_as_probable_as_without_them(

@@ -235,18 +235,18 @@ def _compare_with_free(
     Where ``found`` contradicts most landmarks, as if left and right were exchanged, and is "sure" or "likely" and
     clearly better, it rejects all and is the result. Of unlike shapes only repaired maps show which is better.
     Otherwise, and where it contradicts half of them, it casts a doubt if it is not clearly worse, unless a turn may
-    keep the shapes: then landmarks decide. Where it keeps to most, and both are nearly the same map, that is as
-    probable as without landmarks at least. ``given``: before the search, with all landmarks.
+    keep the shapes: then landmarks decide. Where both are nearly the same map, that is as probable as without landmarks
+    at least. ``given``: before the search, with all landmarks.
     """
     free = found and found._search
     if found is None or free is None:
         return _result(state, retries)
     best, led = free.ranked[0], state.ranked[0]
+    is_same = found.orientation == state.orientation
+    is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
     contradicted = contradicted_by(best, given)
-    if is_most(~contradicted):
+    if is_same or is_most(~contradicted):
         result = _result(state, retries)
-        is_same = found.orientation == state.orientation
-        is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
         if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
             return replace(result, confidence=found.confidence, verdict=found.verdict)
         return result
