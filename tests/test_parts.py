@@ -393,7 +393,12 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
         ("none clear", 0.7, 0.05, "auto", "likely", "part", ["clear", "whole", "part"]),
         ("none clear", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole", "part"]),
         ("ambiguous", 0.4, 0.3, "auto", "sure", "part", ["part"]),  # too much is missing for a whole
-        ("ambiguous", 0.4, 0.05, "target", "sure", "part", ["part"]),  # as asked for
+        ("ambiguous", 0.4, 0.05, "target", "sure", "whole", ["part", "whole"]),  # stated, but it has holes at most
+        ("ambiguous", 0.4, 0.05, "target", "ambiguous", "part", ["part", "whole"]),
+        ("likely", 0.7, 0.05, "target", "sure", "part", ["part", "whole"]),  # more probable
+        ("ambiguous", 0.4, 0.3, "target", "sure", "part", ["part"]),  # stated, and the boundaries say so too
+        ("sure", 0.95, 0.05, "target", "sure", "part", ["part"]),
+        ("ambiguous", 0.4, 0.3, "none", "sure", "whole", ["whole"]),
     ],
 )
 def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
@@ -411,7 +416,7 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
 
     def wholes(*given):
         tried.append("whole")
-        assert given[-1].reason == match_module._FIT_AS_WHOLES
+        assert given[-1].reason == ("" if asked == "none" else match_module._FIT_AS_WHOLES)
         return other
 
     monkeypatch.setattr(match_module, "match_partial", parts)
@@ -421,6 +426,39 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
     result = match_module.match(small, small, config)
     assert result is {"part": part, "whole": other}[expected]
+    assert tried == steps
+
+
+@pytest.mark.parametrize(
+    ("stated", "detected", "opening", "word", "expected", "steps"),
+    [
+        ("source", "none", 0.0, "sure", "other", ["source", "whole"]),  # two closed shapes
+        ("both", "none", 0.05, "likely", "other", ["both", "whole"]),
+        ("both", "none", 0.3, "sure", "stated", ["both"]),  # two cut shapes
+        ("source", "target", 0.3, "sure", "other", ["source", "target"]),  # exchanged by mistake
+        ("source", "target", 0.3, "ambiguous", "stated", ["source", "target"]),
+        ("both", "source", 0.3, "sure", "other", ["both", "source"]),
+        ("source", "source", 0.3, "sure", "stated", ["source"]),
+    ],
+)
+def test_a_wrong_statement_of_the_part_makes_no_map_worse(
+    monkeypatch, small, stated, detected, opening, word, expected, steps
+):
+    part = SimpleNamespace(verdict="ambiguous", confidence=0.4, partial=MatchPart(scale=0.7))
+    other = SimpleNamespace(verdict=word, confidence=0.6, partial=MatchPart(scale=0.7))
+    tried = []
+
+    def matched(_task, which, *_, **__):
+        tried.append(which)
+        return part if which == stated else other, False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: tried.append("whole") or other)
+    monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: best)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection(detected, "open", opening))
+    config = replace(AUTO, partial=replace(AUTO.partial, part=stated))
+    result = match_module.match(small, small, config)
+    assert result is {"stated": part, "other": other}[expected]
     assert tried == steps
 
 

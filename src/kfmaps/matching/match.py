@@ -80,31 +80,59 @@ def match(
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     with limit_threads(config.threads):
-        detection = _detect_part(task)
+        stated, shapes = config.partial.part, task.shapes("preserving")
         wholes = partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
-        may_be_whole = config.search is not None and detection.opening <= SCORE.part.max_hole_opening
-        if may_be_whole and detection.which != "none":
-            best = _match_holed(task, detection, wholes)
-        else:
-            best, as_wholes = _match_part(task, detection)
-            best = best or wholes(as_wholes)
-        may_have_more = config.partial.part == "auto" and detection.which != "none"
-        if not may_have_more or best.verdict == "sure" or best.confidence is None:
-            return best
-        return _compare_opposite(task, best, "target" if detection.which == "source" else "source")
+        if stated == "none":
+            return wholes(MatchPart())
+        detection = detect_part(shapes[0].mesh, shapes[1].mesh)
+        if stated == "auto":
+            return _match_detected(task, detection, wholes)
+        return _match_stated(task, stated, detection, wholes)
+
+
+def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
+    """Return the match of a part and a whole, or that of ``wholes``, as the boundaries suggest."""
+    if task.config.search is not None and detection.which != "none" and _may_be_whole(detection):
+        best = _match_holed(task, detection, wholes)
+    else:
+        best, as_wholes = _match_part(task, detection)
+        best = best or wholes(as_wholes)
+    if detection.which == "none" or best.verdict == "sure" or best.confidence is None:
+        return best
+    return _compare_opposite(task, best, "target" if detection.which == "source" else "source")
+
+
+def _match_stated(
+    task: MatchTask,
+    stated: Literal["source", "target", "both"],
+    detection: PartDetection,
+    wholes: Callable[[MatchPart], Match],
+) -> Match:
+    """Return the match with the part that the settings state.
+
+    Where it is not "sure" and the boundaries suggest something else, the match that these suggest is the answer if it
+    is "sure" or "likely", and more probable: a wrong statement makes no map worse.
+    """
+    with task.clock("parts"):
+        best, _ = match_partial(task, stated, "as asked for")
+    is_backed = detection.which in ("none", stated) and not _may_be_whole(detection)
+    if best.verdict == "sure" or is_backed or task.config.search is None:
+        return best
+    if detection.which in ("none", stated):
+        other = wholes(MatchPart(reason=_FIT_AS_WHOLES, suspected=True))
+    else:
+        other = _match_detected(task, detection, wholes)
+    return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
+
+
+def _may_be_whole(detection: PartDetection) -> bool:
+    """Return whether so little is missing that both shapes may be whole ones."""
+    return detection.opening <= SCORE.part.max_hole_opening
 
 
 def _more_probable(first: Match | None, second: Match) -> Match:
     """Return the match that is more probably right; the ``first`` where both are equally probable."""
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
-
-
-def _detect_part(task: MatchTask) -> PartDetection:
-    """Return which shape is a part: as the settings say or, with "auto", as the boundaries suggest."""
-    part, shapes = task.config.partial.part, task.shapes("preserving")
-    if part != "auto":
-        return PartDetection(part, "" if part == "none" else "as asked for", np.inf)
-    return detect_part(shapes[0].mesh, shapes[1].mesh)
 
 
 def _match_holed(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
@@ -134,7 +162,7 @@ def _match_part(task: MatchTask, detection: PartDetection, clear_only: bool = Fa
         return None, MatchPart(reason=detection.reason)
     with task.clock("parts"):
         part, covers = match_partial(task, detection.which, detection.reason, clear_only=clear_only)
-    if task.config.partial.part != "auto" or (not covers and part.verdict != "unlikely"):
+    if not covers and part.verdict != "unlikely":
         return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if covers else "it fits nowhere"
     return None, MatchPart(reason=f"taken for whole: {detection.reason}, but {but}", suspected=True)

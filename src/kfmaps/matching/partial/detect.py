@@ -17,7 +17,7 @@ class PartDetection:
 
     which: Literal["none", "source", "target", "both"]
     reason: str  # in words
-    opening: float = 0.0  # of the part: the least area that is missing, over its own area
+    opening: float = 0.0  # of the more open shape: the least area that is missing, over its own area
 
 
 def _boundary_opening(mesh: Mesh) -> float:
@@ -43,5 +43,5 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     if openings[part] < SCORE.part.min_opening:
         return PartDetection("none", "no boundary is long enough for a cut")
     if openings[part] < SCORE.part.opening_ratio * openings[whole]:
-        return PartDetection("none", "both have open boundaries alike")
+        return PartDetection("none", "both have open boundaries alike", openings[part])
     return PartDetection(part, f"the {part} has long open boundaries, and the {whole} has not", openings[part])
