@@ -114,7 +114,7 @@ def test_boundaries_tell_which_is_a_part(pair):
     whole, part = pair.source, pair.target
     found = detect_part(whole, part)
     assert (found.which, found.opening) == ("target", _boundary_opening(part))
-    for one, other, which in ((part, whole, "source"), (whole, whole, "none"), (part, part, "none")):
+    for one, other, which in ((part, whole, "source"), (whole, whole, "none"), (part, part, "both")):
         assert detect_part(one, other).which == which
     assert detect_part(whole, whole).opening == 0
     assert detect_part(whole, cloud_of(part)).which == "none"
@@ -399,6 +399,9 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
         ("ambiguous", 0.4, 0.3, "target", "sure", "part", ["part"]),  # stated, and the boundaries say so too
         ("sure", 0.95, 0.05, "target", "sure", "part", ["part"]),
         ("ambiguous", 0.4, 0.3, "none", "sure", "whole", ["whole"]),
+        ("likely", 0.7, 0.3, "none", "ambiguous", "part", ["whole", "part"]),  # stated, but it is cut
+        ("ambiguous", 0.7, 0.3, "none", "ambiguous", "whole", ["whole", "part"]),
+        ("likely", 0.7, 0.05, "none", "ambiguous", "whole", ["whole"]),
     ],
 )
 def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
@@ -434,7 +437,11 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     [
         ("source", "none", 0.0, "sure", "other", ["source", "whole"]),  # two closed shapes
         ("both", "none", 0.05, "likely", "other", ["both", "whole"]),
-        ("both", "none", 0.3, "sure", "stated", ["both"]),  # two cut shapes
+        ("both", "both", 0.3, "sure", "stated", ["both"]),
+        ("none", "both", 0.3, "sure", "other", ["whole", "both"]),  # two cut shapes
+        ("auto", "both", 0.3, "likely", "other", ["whole", "both"]),
+        ("auto", "both", 0.3, "ambiguous", "stated", ["whole", "both"]),
+        ("source", "both", 0.3, "sure", "other", ["source", "whole"]),
         ("source", "target", 0.3, "sure", "other", ["source", "target"]),  # exchanged by mistake
         ("source", "target", 0.3, "ambiguous", "stated", ["source", "target"]),
         ("both", "source", 0.3, "sure", "other", ["both", "source"]),
@@ -453,7 +460,8 @@ def test_a_wrong_statement_of_the_part_makes_no_map_worse(
         return part if which == stated else other, False
 
     monkeypatch.setattr(match_module, "match_partial", matched)
-    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: tried.append("whole") or other)
+    as_wholes = part if stated in ("none", "auto") else other
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: tried.append("whole") or as_wholes)
     monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: best)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection(detected, "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=stated))

@@ -146,7 +146,8 @@ class Partial:
     """Matching of parts; see :mod:`kfmaps.matching.partial`.
 
     ``part``: with "both" each shape has something that the other lacks; "auto" compares their boundaries and, where
-    these differ, tries to place one on the other. ``scale``: "auto" is "fixed" for two parts of about the same size.
+    these differ, tries to place one on the other. What is stated is tried first, and what the boundaries suggest where
+    that is not "sure". ``scale``: "auto" is "fixed" for two parts of about the same size.
     """
 
     part: Literal["auto", "none", "source", "target", "both"] = setting(

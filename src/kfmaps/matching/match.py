@@ -11,6 +11,8 @@
    too, and the best is kept.
 5. The most probable match is returned. Where a part was suspected and no match is sure, the match with the other shape
    as the part is tried last.
+
+Where the settings state which shape is a part, that is tried first, and the rest where it is not sure.
 """
 
 from __future__ import annotations
@@ -82,8 +84,6 @@ def match(
     with limit_threads(config.threads):
         stated, shapes = config.partial.part, task.shapes("preserving")
         wholes = partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
-        if stated == "none":
-            return wholes(MatchPart())
         detection = detect_part(shapes[0].mesh, shapes[1].mesh)
         if stated == "auto":
             return _match_detected(task, detection, wholes)
@@ -91,20 +91,28 @@ def match(
 
 
 def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
-    """Return the match of a part and a whole, or that of ``wholes``, as the boundaries suggest."""
-    if task.config.search is not None and detection.which != "none" and _may_be_whole(detection):
-        best = _match_holed(task, detection, wholes)
+    """Return the match of a part and a whole, of two parts, or that of ``wholes``, as the boundaries suggest."""
+    which, has_search = detection.which, task.config.search is not None
+    if which in ("none", "both"):
+        best = wholes(MatchPart(reason=detection.reason))
+        if which == "none" or best.verdict == "sure" or not has_search:
+            return best
+        return _better_if_likely(best, _match_as(task, "both", detection.reason))
+    if has_search and _may_be_whole(detection):
+        best = _match_holed(task, which, detection.reason, wholes)
     else:
-        best, as_wholes = _match_part(task, detection)
+        best, as_wholes = _match_part(task, which, detection.reason)
         best = best or wholes(as_wholes)
-    if detection.which == "none" or best.verdict == "sure" or best.confidence is None:
+    if best.verdict == "sure" or best.confidence is None:
         return best
-    return _compare_opposite(task, best, "target" if detection.which == "source" else "source")
+    if detection.both_open:
+        return _better_if_likely(best, _match_as(task, "both", "both have open boundaries"))
+    return _compare_opposite(task, best, "target" if which == "source" else "source")
 
 
 def _match_stated(
     task: MatchTask,
-    stated: Literal["source", "target", "both"],
+    stated: Literal["none", "source", "target", "both"],
     detection: PartDetection,
     wholes: Callable[[MatchPart], Match],
 ) -> Match:
@@ -113,15 +121,31 @@ def _match_stated(
     Where it is not "sure" and the boundaries suggest something else, the match that these suggest is the answer if it
     is "sure" or "likely", and more probable: a wrong statement makes no map worse.
     """
-    with task.clock("parts"):
-        best, _ = match_partial(task, stated, "as asked for")
-    is_backed = detection.which in ("none", stated) and not _may_be_whole(detection)
+    is_cut = not _may_be_whole(detection)
+    if stated == "none":
+        best, is_backed = wholes(MatchPart()), not is_cut
+    else:
+        best = _match_as(task, stated, "as asked for")
+        is_backed = detection.which == stated and (is_cut or stated == "both")
     if best.verdict == "sure" or is_backed or task.config.search is None:
         return best
-    if detection.which in ("none", stated):
+    if stated == "none":
+        other = _match_detected(task, detection, lambda _: best)
+    elif detection.which in ("none", stated):
         other = wholes(MatchPart(reason=_FIT_AS_WHOLES, suspected=True))
     else:
         other = _match_detected(task, detection, wholes)
+    return _better_if_likely(best, other)
+
+
+def _match_as(task: MatchTask, which: Literal["source", "target", "both"], reason: str) -> Match:
+    """Return the match with ``which`` shape as the part."""
+    with task.clock("parts"):
+        return match_partial(task, which, reason)[0]
+
+
+def _better_if_likely(best: Match, other: Match) -> Match:
+    """Return ``other`` if it is "sure" or "likely", and more probable than ``best``."""
     return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
 
 
@@ -135,7 +159,9 @@ def _more_probable(first: Match | None, second: Match) -> Match:
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
 
 
-def _match_holed(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
+def _match_holed(
+    task: MatchTask, which: Literal["source", "target"], reason: str, wholes: Callable[[MatchPart], Match]
+) -> Match:
     """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
 
     A body with holes is matched well either way, one of other proportions only as a whole. Where little is missing the
@@ -143,29 +169,29 @@ def _match_holed(task: MatchTask, detection: PartDetection, wholes: Callable[[Ma
     """
     part, as_wholes, is_clear = None, MatchPart(reason=_FIT_AS_WHOLES, suspected=True), True
     try:
-        part, as_wholes = _match_part(task, detection, clear_only=True)
+        part, as_wholes = _match_part(task, which, reason, clear_only=True)
     except NotClear:
         is_clear = False
     if part is not None and part.verdict == "sure":
         return part
     best = _more_probable(part, wholes(as_wholes))
-    return best if is_clear or best.verdict == "sure" else _more_probable(_match_part(task, detection)[0], best)
+    return best if is_clear or best.verdict == "sure" else _more_probable(_match_part(task, which, reason)[0], best)
 
 
-def _match_part(task: MatchTask, detection: PartDetection, clear_only: bool = False) -> tuple[Match | None, MatchPart]:
+def _match_part(
+    task: MatchTask, which: Literal["source", "target"], reason: str, clear_only: bool = False
+) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, and what a match of whole shapes says about parts.
 
-    The match is ``None`` where no part is suspected, where each shape covers the other, and where the part does
-    not fit. ``clear_only``: see :func:`kfmaps.matching.partial.place_part.place_part`.
+    The match is ``None`` where each shape covers the other, and where the part does not fit. ``clear_only``: see
+    :func:`kfmaps.matching.partial.place_part.place_part`.
     """
-    if detection.which == "none":
-        return None, MatchPart(reason=detection.reason)
     with task.clock("parts"):
-        part, covers = match_partial(task, detection.which, detection.reason, clear_only=clear_only)
+        part, covers = match_partial(task, which, reason, clear_only=clear_only)
     if not covers and part.verdict != "unlikely":
         return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if covers else "it fits nowhere"
-    return None, MatchPart(reason=f"taken for whole: {detection.reason}, but {but}", suspected=True)
+    return None, MatchPart(reason=f"taken for whole: {reason}, but {but}", suspected=True)
 
 
 def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "target"]) -> Match:

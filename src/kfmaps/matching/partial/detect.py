@@ -18,6 +18,7 @@ class PartDetection:
     which: Literal["none", "source", "target", "both"]
     reason: str  # in words
     opening: float = 0.0  # of the more open shape: the least area that is missing, over its own area
+    both_open: bool = False  # whether something may be missing of both
 
 
 def _boundary_opening(mesh: Mesh) -> float:
@@ -42,6 +43,10 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     part, whole = sorted(openings, key=lambda name: -openings[name])
     if openings[part] < SCORE.part.min_opening:
         return PartDetection("none", "no boundary is long enough for a cut")
-    if openings[part] < SCORE.part.opening_ratio * openings[whole]:
-        return PartDetection("none", "both have open boundaries alike", openings[part])
-    return PartDetection(part, f"the {part} has long open boundaries, and the {whole} has not", openings[part])
+    both_open = openings[whole] >= SCORE.part.min_opening
+    if openings[part] >= SCORE.part.opening_ratio * openings[whole]:
+        reason = f"the {part} has long open boundaries, and the {whole} has " + ("shorter ones" if both_open else "not")
+        return PartDetection(part, reason, openings[part], both_open)
+    if both_open:
+        return PartDetection("both", "both have long open boundaries", openings[part], both_open)
+    return PartDetection("none", "both have open boundaries alike", openings[part])
