@@ -440,7 +440,7 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
         ("both", "both", 0.3, "sure", "stated", ["both"]),
         ("none", "both", 0.3, "sure", "other", ["whole", "both"]),  # two cut shapes
         ("auto", "both", 0.3, "likely", "other", ["whole", "both"]),
-        ("auto", "both", 0.3, "ambiguous", "stated", ["whole", "both"]),
+        ("auto", "both", 0.3, "ambiguous", "other", ["whole", "both"]),  # nothing is stated
         ("source", "both", 0.3, "sure", "other", ["source", "whole"]),
         ("source", "target", 0.3, "sure", "other", ["source", "target"]),  # exchanged by mistake
         ("source", "target", 0.3, "ambiguous", "stated", ["source", "target"]),

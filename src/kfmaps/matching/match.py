@@ -97,7 +97,7 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
         best = wholes(MatchPart(reason=detection.reason))
         if which == "none" or best.verdict == "sure" or not has_search:
             return best
-        return _better_if_likely(best, _match_as(task, "both", detection.reason))
+        return _more_probable(best, _match_as(task, "both", detection.reason))
     if has_search and _may_be_whole(detection):
         best = _match_holed(task, which, detection.reason, wholes)
     else:
@@ -106,7 +106,7 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     if best.verdict == "sure" or best.confidence is None:
         return best
     if detection.both_open:
-        return _better_if_likely(best, _match_as(task, "both", "both have open boundaries"))
+        return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
     return _compare_opposite(task, best, "target" if which == "source" else "source")
 
 
@@ -135,18 +135,13 @@ def _match_stated(
         other = wholes(MatchPart(reason=_FIT_AS_WHOLES, suspected=True))
     else:
         other = _match_detected(task, detection, wholes)
-    return _better_if_likely(best, other)
+    return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
 
 
 def _match_as(task: MatchTask, which: Literal["source", "target", "both"], reason: str) -> Match:
     """Return the match with ``which`` shape as the part."""
     with task.clock("parts"):
         return match_partial(task, which, reason)[0]
-
-
-def _better_if_likely(best: Match, other: Match) -> Match:
-    """Return ``other`` if it is "sure" or "likely", and more probable than ``best``."""
-    return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
 
 
 def _may_be_whole(detection: PartDetection) -> bool:
