@@ -1,6 +1,7 @@
 """Two parts of two shapes, neither of which holds all of the other: errors, overlaps and verdicts.
 
     python benchmarks/part_to_part.py --data DIR [--sets TOSCA_r,SMAL_r,FAUST_r] [--pairs 12] [--half report]
+    python benchmarks/part_to_part.py --data DIR --part auto
 
 Each shape of a pair is cut by a plane at random and keeps 55 to 80 % of its area; drawn anew until 35 to 75 % of what
 the target keeps is on the source too; ``--cuts 1,2`` has two other cuts of each. Truth is that of the whole shapes,
@@ -56,11 +57,11 @@ def cuts(job: Job, seed: int) -> tuple[Mesh, Mesh, np.ndarray, np.ndarray, Mesh,
     raise SystemExit(f"{job}: no cuts with enough in common")
 
 
-def run(job: Job, seed: int) -> dict[str, object]:
+def run(job: Job, seed: int, which: str) -> dict[str, object]:
     source, target, rows, part, whole, kept = cuts(job, seed)
     config = replace(kfmaps.Config(), threads=1)
     begun = time.process_time()
-    found = kfmaps.match(source, target, replace(config, partial=replace(config.partial, part="both")))
+    found = kfmaps.match(source, target, replace(config, partial=replace(config.partial, part=which)))
     seconds = time.process_time() - begun
     areas, true = vertex_areas(target)[rows], part >= 0
     ours = found.target_to_source[rows] >= 0
@@ -91,6 +92,7 @@ def is_right(row: dict) -> bool:
 def main() -> None:
     parser = pair_options(__doc__, "TOSCA_r,SMAL_r,FAUST_r", 12, "report")
     parser.add_argument("--cuts", default="0", help="numbers of the cuts of each pair")
+    parser.add_argument("--part", choices=("both", "auto", "none"), default="both", help="what the settings state")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     rows: list[dict] = []
@@ -99,7 +101,7 @@ def main() -> None:
         drawn = chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1)
         for number, pair in enumerate(drawn):
             for first in numbers:
-                rows.append(run(Job(arguments.data, kind, *pair), number + first))
+                rows.append(run(Job(arguments.data, kind, *pair), number + first, arguments.part))
                 print(json.dumps(rows[-1]), flush=True)
     print(
         f"\n{'set':10}{'pairs':>6}{'error':>8}{'median':>8}{'IoU %':>7}{'right':>6}{'sure':>6}{'sure, >10':>11}"
