@@ -17,7 +17,7 @@ from automatic import Job, chosen_jobs, loaded, pair_options
 
 import kfmaps
 from kfmaps.config import Config
-from kfmaps.kernels import Laplacian, Linear, Polynomial, Tanh
+from kfmaps.kernels.kernels import Laplacian, Linear, Polynomial, Tanh
 
 
 def _with_part(part: str) -> Config:

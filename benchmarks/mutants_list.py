@@ -1059,6 +1059,15 @@ MUTANTS = tuple(
         # whether a part is a whole with holes
         ("detection.opening <= SCORE.part.max_hole_opening", "detection.opening > 0", "test_parts -k unsure_part"),
         ("(second.confidence or 0.0) > (first.confidence or 0.0)", "True", "test_parts -k unsure_part"),
+        # whether a part is stated wrongly, or both are parts
+        ('and (is_cut or stated == "both")', "and is_cut", "test_parts -k wrong_statement"),
+        ("_more_probable(best, other) if other.verdict in", "other if other.verdict in", "test_parts -k unsure_part"),
+        ("if detection.both_open:", "if False:", "test_parts -k both_are_open"),
+        (
+            "both_open = openings[whole] >= SCORE",
+            "both_open = openings[part] >= SCORE",
+            "test_parts -k boundaries_tell",
+        ),
         # whether the open shape has more than the closed one
         ("least = math.sqrt(SCORE.part.full_area)", "least = SCORE.part.full_area", "test_parts -k may_hold_all"),
         ("for one in (likely if worth else likely[:1])", "for one in likely[:1]", "test_parts_alternatives"),

@@ -119,6 +119,8 @@ def test_boundaries_tell_which_is_a_part(pair):
     assert detect_part(whole, whole).opening == 0
     assert detect_part(whole, cloud_of(part)).which == "none"
     # A pinhole is none: a face of many is left out.
+    assert not found.both_open
+    assert detect_part(part, part).both_open
     pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
     assert 0.0 < _boundary_opening(pinhole) < SCORE.part.min_opening
     assert detect_part(pair.source, pinhole).which == "none"
@@ -438,6 +440,7 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
         ("source", "none", 0.0, "sure", "other", ["source", "whole"]),  # two closed shapes
         ("both", "none", 0.05, "likely", "other", ["both", "whole"]),
         ("both", "both", 0.3, "sure", "stated", ["both"]),
+        ("both", "both", 0.05, "sure", "stated", ["both"]),
         ("none", "both", 0.3, "sure", "other", ["whole", "both"]),  # two cut shapes
         ("auto", "both", 0.3, "likely", "other", ["whole", "both"]),
         ("auto", "both", 0.3, "ambiguous", "other", ["whole", "both"]),  # nothing is stated
@@ -468,6 +471,26 @@ def test_a_wrong_statement_of_the_part_makes_no_map_worse(
     result = match_module.match(small, small, config)
     assert result is {"stated": part, "other": other}[expected]
     assert tried == steps
+
+
+@pytest.mark.parametrize(("both_open", "tried_last"), [(True, "both"), (False, "source")])
+def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_are_open(
+    monkeypatch, small, both_open, tried_last
+):
+    answers = {
+        which: SimpleNamespace(verdict="ambiguous", confidence=value, partial=MatchPart(scale=0.7))
+        for which, value in (("target", 0.4), ("source", 0.3), ("both", 0.45))
+    }
+    tried = []
+
+    def matched(_task, which, *_, **__):
+        tried.append(which)
+        return answers[which], False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, both_open))
+    assert match_module.match(small, small, AUTO) is answers["both" if both_open else "target"]
+    assert tried == ["target", tried_last]
 
 
 @pytest.mark.parametrize(
