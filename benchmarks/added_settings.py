@@ -1,10 +1,10 @@
 """What settings change that a user may add: the part, right or wrong, the orientation, the kernel, the seed.
 
     python benchmarks/added_settings.py --data DIR [--half choice|report] [--pairs 1] [--sets FAUST_r,PFAUST_H,...]
-    python benchmarks/added_settings.py --data DIR --only FAUST_r,tr_reg_063,tr_reg_071 --ways "none;partial.part=source"
+    python benchmarks/added_settings.py --data DIR --only FAUST_r,tr_reg_063,tr_reg_071 --ways "none;kernel.kind=Tanh"
 
-DIR as for benchmarks/automatic.py; of SHREC16, PFAUST_M and PFAUST_H the target is a part. A way is "none", "seed=1", or
-settings as ``--set`` takes them, with commas between. Errors are mean geodesic distances × 100 over the target's
+DIR as for benchmarks/automatic.py; of SHREC16, PFAUST_M and PFAUST_H the target is a part. A way is "none", "seed=1",
+or settings as ``--set`` takes them, with commas between. Errors are mean geodesic distances × 100 over the target's
 vertices that have a counterpart by truth and map.
 """
 
