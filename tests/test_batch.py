@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from collecting import CONFIG, LANDMARKS, done, plan_of, registered, touch, write_collection
 from conftest import blob
-from kfmaps._arrays import InvalidInput
+from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.batch import cache, work
 from kfmaps.batch.cache import _samples_path, cached_samples, file_digest, load_record, save_record, shape_key
 from kfmaps.batch.layout import Pair, find_collection
@@ -21,7 +21,7 @@ from kfmaps.batch.results import summarize
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import count_attempts, map_path, match_pair, prepare_shape
 from kfmaps.config import NystromConfig, Search
-from kfmaps.evaluation import Truth, assess
+from kfmaps.evaluation import Truth, assess, assess_new
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
@@ -92,6 +92,17 @@ def test_far_mirrored_points_are_sampled(folder: Path) -> None:
     assert every.errors.mean == some.errors.mean
     assert len(some.mirrored.errors) == 50
     np.testing.assert_allclose(some.mirrored.errors, every.mirrored.errors[::4])
+
+
+def test_a_truth_that_a_new_map_does_not_reach_gives_no_errors(folder: Path) -> None:
+    source, ends = read_mesh(folder / "b0.off"), np.arange(50)
+    points = np.where(np.arange(200) < 100, np.arange(200), -1)
+    for truth in (Truth(ends, ends + 100), Truth(ends, ends, ends + 100)):
+        with pytest.warns(KfmapsWarning, match="no point of the truth"):
+            assert assess_new(source, points, truth) is None
+    found = assess_new(source, points, Truth(ends, ends, ends + 60))
+    assert found is not None
+    assert found.errors.mean == 0.0
 
 
 def test_entries_depend_on_content_and_on_what_prepares(tmp_path: Path) -> None:

@@ -63,6 +63,19 @@ def test_map_of_a_shape_to_itself_moved(made: types.SimpleNamespace, first: tupl
     assert set(found.seconds) >= {"eigenfunctions of source", "eigenfunctions of target", "solve", "refinement"}
 
 
+def test_a_map_that_reaches_no_point_of_the_truth_is_written(
+    made: types.SimpleNamespace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A part may be placed where the truth has nothing; the map is not lost for it."""
+    nowhere = kfmaps.Match(np.full(len(made.truth), -1), verdict="unlikely")
+    monkeypatch.setattr("kfmaps.cli.commands.match.find_map", lambda *_, **__: nowhere)
+    ran = match(made, "-o", tmp_path / "m.npz", "--json", "--truth", made.truth_source, made.truth_target)
+    assert ran.status == 0
+    assert "no point of the truth has a counterpart" in ran.stderr
+    assert json.loads(ran.stdout)["errors"] is None
+    assert (load_map(tmp_path / "m.npz").target_to_source == -1).all()
+
+
 def test_summary_for_people(first: tuple[Ran, kfmaps.Match]) -> None:
     ran = first[0]
     shown = " ".join(ran.stdout.split())

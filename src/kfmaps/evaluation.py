@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.fmap import evaluate
 from kfmaps.fmap.evaluate import Evaluation, Smoothness
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
@@ -171,6 +172,20 @@ def assess(
     coverage = evaluate.coverage(target_to_source, source)
     mirrored_errors = others[0] if others else None
     return Accuracy(direct, float(matched.mean()), coverage, mirrored_errors, precise_errors, smoothness)
+
+
+def assess_new(
+    source: Mesh, target_to_source: np.ndarray, truth: Truth, *, mirrored: int | None = None
+) -> Accuracy | None:
+    """Return :func:`assess` of a map that was just made, or ``None`` with a warning where it reaches no true point.
+
+    Such a map is kept all the same.
+    """
+    lists = [truth.target] if truth.mirrored is None else [truth.target, truth.mirrored]
+    if all((target_to_source[vertices] >= 0).any() for vertices in lists):
+        return assess(source, target_to_source, truth, mirrored=mirrored)
+    warnings.warn("no point of the truth has a counterpart in the map: no errors", KfmapsWarning, stacklevel=2)
+    return None
 
 
 @dataclass(frozen=True, eq=False)
