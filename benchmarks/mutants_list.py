@@ -1062,7 +1062,7 @@ MUTANTS = tuple(
         # whether a part is stated wrongly, or both are parts
         ('and (is_cut or stated == "both")', "and is_cut", "test_parts -k wrong_statement"),
         ("_more_probable(best, other) if other.verdict in", "other if other.verdict in", "test_parts -k unsure_part"),
-        ("if detection.both_open:", "if False:", "test_parts -k both_are_open"),
+        ("or not detection.both_open:", "or True:", "test_parts -k both_are_open"),
         (
             "both_open = openings[whole] >= SCORE",
             "both_open = openings[part] >= SCORE",

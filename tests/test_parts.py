@@ -473,14 +473,23 @@ def test_a_wrong_statement_of_the_part_makes_no_map_worse(
     assert tried == steps
 
 
-@pytest.mark.parametrize(("both_open", "tried_last"), [(True, "both"), (False, "source")])
+@pytest.mark.parametrize(
+    ("both_open", "word", "expected", "steps"),
+    [
+        (True, "ambiguous", "both", ["target", "source", "both"]),
+        (False, "ambiguous", "target", ["target", "source"]),
+        (True, "sure", "source", ["target", "source"]),
+    ],
+)
 def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_are_open(
-    monkeypatch, small, both_open, tried_last
+    monkeypatch, small, both_open, word, expected, steps
 ):
     answers = {
         which: SimpleNamespace(verdict="ambiguous", confidence=value, partial=MatchPart(scale=0.7))
-        for which, value in (("target", 0.4), ("source", 0.3), ("both", 0.45))
+        for which, value in (("target", 0.4), ("both", 0.45))
     }
+    confidence = 0.95 if word == "sure" else 0.3
+    answers["source"] = SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart(scale=0.7))
     tried = []
 
     def matched(_task, which, *_, **__):
@@ -489,8 +498,8 @@ def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_
 
     monkeypatch.setattr(match_module, "match_partial", matched)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, both_open))
-    assert match_module.match(small, small, AUTO) is answers["both" if both_open else "target"]
-    assert tried == ["target", tried_last]
+    assert match_module.match(small, small, AUTO) is answers[expected]
+    assert tried == steps
 
 
 @pytest.mark.parametrize(

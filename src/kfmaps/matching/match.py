@@ -10,7 +10,7 @@
 4. Where distances around many vertices are not preserved by the result, other candidates of the search are finished
    too, and the best is kept.
 5. The most probable match is returned. Where a part was suspected and no match is sure, the match with the other shape
-   as the part, or with both as parts of something larger where both are open, is tried last.
+   as the part is tried last and, where both are open, that with both as parts of something larger.
 
 Where the settings state which shape is a part, that is tried first, and the rest where it is not sure.
 """
@@ -105,9 +105,10 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
         best = best or wholes(as_wholes)
     if best.verdict == "sure" or best.confidence is None:
         return best
-    if detection.both_open:
-        return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
-    return _compare_opposite(task, best, "target" if which == "source" else "source")
+    best = _compare_opposite(task, best, "target" if which == "source" else "source")
+    if best.verdict == "sure" or not detection.both_open:
+        return best
+    return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
 
 
 def _match_stated(
