@@ -10,7 +10,7 @@ from kfmaps.geometry.arap import build_arap, rotations
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, embedded_deformation, spread_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.registration import nonrigid_icp
+from kfmaps.registration import deformable, nonrigid_icp
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarsen", "kfmaps.registration.nonrigid_icp")
@@ -102,3 +102,15 @@ def test_a_large_mesh_is_registered_as_well_with_its_proxy_first(
     worst = int(quick.argmax())
     marked, _ = off(np.array([[pair.truth[worst], worst]]))
     assert marked[worst] < 0.85 * quick[worst], (marked[worst], quick[worst], whole[worst])
+    sizes: list[int] = []
+    solver = deformable.DeformableMesh.solver
+    monkeypatch.setattr(
+        deformable.DeformableMesh, "solver", lambda self, *rest: sizes.append(len(self.areas)) or solver(self, *rest)
+    )
+    monkeypatch.setattr(nonrigid_icp, "_FINE_PROXY_FROM", 2000)
+    monkeypatch.setattr(nonrigid_icp, "_FINE_PROXY_VERTICES", 1900)
+    finest, finest_gap = off()
+    assert finest.mean() < 1.1 * whole.mean()
+    assert finest_gap < 3 * gap  # of coarse surfaces
+    # Nothing is factorised that has all vertices.
+    assert 1500 < max(sizes) <= 1900 < len(source.vertices)

@@ -47,6 +47,9 @@ _Cached = TypeVar("_Cached")
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000
 """Vertices above which a registration begins with coarse proxies, and vertices of a proxy. These are 1.4 % of √area
 apart, less than the size of details that the first levels follow."""
+_FINE_PROXY_FROM, _FINE_PROXY_VERTICES = 100_000, 40_000
+"""Vertices above which the last level is of finer proxies, and vertices of these: factorisations of all take too much
+time and memory (research/speed.md)."""
 _SCALED_LANDMARK_PULL = (30.0, 0.1)
 """The pull of landmarks with local scaling, between shapes of other proportions, whose maps are less exact than
 clicks."""
@@ -111,11 +114,14 @@ class NonRigid:
         report = progress or (lambda _done: None)
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
         landmarks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
-        x = None
-        if max(len(source.vertices), len(target.vertices)) > _PROXY_FROM:
-            x = self._register_proxies(source, target, points, lambda done: report(0.3 * done), landmarks, pinned)
+        most, x, given = max(len(source.vertices), len(target.vertices)), None, (points, landmarks, pinned)
+        if most > _PROXY_FROM:
+            x, _ = self._register_proxies(source, target, *given, _PROXY_VERTICES, lambda done: report(0.3 * done))
         pair = mesh_pair(deformable_mesh(source), target)
-        x, gap = self.register_vertices(pair, points, x, report, landmarks, pinned)
+        if most > _FINE_PROXY_FROM:
+            x, gap = self._register_proxies(source, target, *given, _FINE_PROXY_VERTICES, report, x)
+        else:
+            x, gap = self.register_vertices(pair, points, x, report, landmarks, pinned)
         projected = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
         energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
         return Registration(x, projected.faces, projected.weights, energy, gap)
@@ -125,22 +131,27 @@ class NonRigid:
         source: Mesh,
         target: Mesh,
         points: np.ndarray,
-        report: Callable[[float], None],
         landmarks: np.ndarray,
         pinned: np.ndarray | None,
-    ) -> np.ndarray:
-        """Register coarse proxies of both and return the source's vertices (n_s, 3) that follow."""
-        a = coarse_proxy(source, spread_vertices(source, _PROXY_VERTICES, landmarks[:, 0]))
-        b = coarse_proxy(target, spread_vertices(target, _PROXY_VERTICES, landmarks[:, 1]))
-        report(0.1)
-        x, _ = self.register_vertices(
+        count: int,
+        report: Callable[[float], None],
+        x: np.ndarray | None = None,
+    ) -> tuple[np.ndarray, float]:
+        """Register proxies of ``count`` vertices; return the source's vertices (n_s, 3) that follow, and the gap.
+
+        ``x (n_s, 3)``: a nearly registered source; the other parameters are those of :meth:`__call__`.
+        """
+        a = coarse_proxy(source, spread_vertices(source, count, landmarks[:, 0]))
+        b = coarse_proxy(target, spread_vertices(target, count, landmarks[:, 1]))
+        x, gap = self.register_vertices(
             mesh_pair(deformable_mesh(a.mesh), b.mesh),
             a.owner[points[b.vertices]],
-            report=lambda done: report(0.1 + 0.9 * done),
-            landmarks=np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1),
-            pinned=None if pinned is None else pinned[b.vertices],
+            None if x is None else x[a.vertices],
+            report,
+            np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1),
+            None if pinned is None else pinned[b.vertices],
         )
-        return embedded_deformation(a, source, x, rotations(build_arap(a.mesh), x))
+        return embedded_deformation(a, source, x, rotations(build_arap(a.mesh), x)), gap
 
     def register_vertices(
         self,
