@@ -47,7 +47,7 @@ _Cached = TypeVar("_Cached")
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000
 """Vertices above which a registration begins with coarse proxies, and vertices of a proxy. These are 1.4 % of √area
 apart, less than the size of details that the first levels follow."""
-_FINE_PROXY_FROM, _FINE_PROXY_VERTICES = 100_000, 40_000
+_FINE_PROXY_FROM, _FINE_PROXY_VERTICES = 50_000, 40_000
 """Vertices above which the last level is of finer proxies, and vertices of these: factorisations of all take too much
 time and memory (research/speed.md)."""
 _SCALED_LANDMARK_PULL = (30.0, 0.1)
