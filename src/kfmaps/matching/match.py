@@ -49,7 +49,7 @@ from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
-_FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as a part and a whole"
+_FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as parts"
 
 
 def match(
