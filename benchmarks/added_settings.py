@@ -53,13 +53,11 @@ def row_of(job: Job, way: str) -> str:
 
 
 def main() -> None:
-    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r", 1)
-    parser.add_argument("--only", nargs="+", metavar="SET,SOURCE,TARGET", help="these pairs alone")
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r", 1, only=True)
     parser.add_argument("--ways", default=";".join(WAYS))
     arguments = parser.parse_args()
-    only = [Job(arguments.data, *pair.split(",")) for pair in arguments.only or ()]
     print(f"{'pair':46}{'added':32}{'error':>8}{'matched':>9}  {'verdict':10}{'':6}{'CPU s':>8}")
-    for job in only or chosen_jobs(arguments, seed=1):
+    for job in chosen_jobs(arguments, seed=1):
         for way in arguments.ways.split(";"):
             print(row_of(job, way), flush=True)
 

@@ -136,19 +136,25 @@ def chosen_pairs(kind: str, data: Path, half: str, count: int, seed: int = 0) ->
     return [found[i] for i in np.sort(drawn)]
 
 
-def pair_options(about: str | None, sets: str, pairs: int, half: str = "choice") -> argparse.ArgumentParser:
-    """The options of benchmarks over pairs: the data, the sets, the half and the most pairs of each set."""
+def pair_options(
+    about: str | None, sets: str, pairs: int, half: str = "choice", only: bool = False
+) -> argparse.ArgumentParser:
+    """The options of benchmarks over pairs: the data, the sets, the half, the most pairs of each set, or ``only``."""
     parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--sets", default=sets)
     parser.add_argument("--half", choices=("choice", "report"), default=half)
     parser.add_argument("--pairs", type=int, default=pairs, help="at most, of each set")
+    if only:
+        parser.add_argument("--only", nargs="+", metavar="SET,SOURCE,TARGET", help="these pairs alone")
     return parser
 
 
 def chosen_jobs(options: argparse.Namespace, seed: int = 0) -> list[Job]:
     """The pairs that :func:`pair_options` ask for, set by set; ``seed`` as of :func:`chosen_pairs`."""
     data, half, count = options.data, options.half, options.pairs
+    if getattr(options, "only", None):
+        return [Job(data, *pair.split(",")) for pair in options.only]
     return [Job(data, s, *pair) for s in options.sets.split(",") for pair in chosen_pairs(s, data, half, count, seed)]
 
 

@@ -158,8 +158,8 @@ def tell_turns(n: int, rows: dict[str, list[dict[str, Any]]]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--large", action="store_true", help="300,000 vertices too (about 6 GB)")
-    parser.add_argument("--huge", action="store_true", help="a million too (about 20 GB)")
+    parser.add_argument("--large", action="store_true", help="300,000 vertices too (about 3 GB)")
+    parser.add_argument("--huge", action="store_true", help="a million too (about 10 GB)")
     parser.add_argument("--automatic", action="store_true", help="two poses without landmarks instead")
     parser.add_argument("--sizes", type=int, nargs="+", help="these sizes instead")
     parser.add_argument("--threads", type=int, default=2)

@@ -493,7 +493,7 @@ MUTANTS = tuple(
         ('np.einsum("eij,ej->ei", R[node], offsets)', "offsets", "test_coarse_proxies"),
         ("a.owner[points[b.vertices]]", "a.owner[b.vertices]", "test_coarse_proxies"),
         ("None if x is None else x[a.vertices],", "None,", "test_coarse_proxies"),
-        ("target, *given, _FINE_PROXY_VERTICES,", "target, *given, _PROXY_VERTICES,", "test_coarse_proxies"),
+        ("proxies(_FINE_PROXY_VERTICES, report, x)", "proxies(_PROXY_VERTICES, report, x)", "test_coarse_proxies"),
         # pictures of OBJ files
         (
             "names = {pictures.get(used[i][1]) for i in np.unique(material_of_face)}",

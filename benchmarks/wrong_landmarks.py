@@ -123,14 +123,12 @@ def report(rows: list[dict]) -> None:
 
 
 def main() -> None:
-    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r", 2)
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,catdog,SMAL_r", 2, only=True)
     parser.add_argument("--json", type=Path)
-    parser.add_argument("--only", nargs="+", metavar="SET,SOURCE,TARGET", help="these pairs alone")
     parser.add_argument("--ways", default=";".join(WAYS))
     arguments = parser.parse_args()
-    only = [Job(arguments.data, *pair.split(",")) for pair in arguments.only or ()]
     rows: list[dict] = []
-    for job in only or chosen_jobs(arguments, seed=1):
+    for job in chosen_jobs(arguments, seed=1):
         rows += rows_of(job, tuple(arguments.ways.split(";")))
     report(rows)
     if arguments.json:

@@ -21,7 +21,7 @@ from kfmaps.batch.results import summarize
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import count_attempts, map_path, match_pair, prepare_shape
 from kfmaps.config import NystromConfig, Search
-from kfmaps.evaluation import Truth, assess, assess_new
+from kfmaps.evaluation import Truth, assess, assess_if_reached
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
@@ -99,8 +99,10 @@ def test_a_truth_that_a_new_map_does_not_reach_gives_no_errors(folder: Path) -> 
     points = np.where(np.arange(200) < 100, np.arange(200), -1)
     for truth in (Truth(ends, ends + 100), Truth(ends, ends, ends + 100)):
         with pytest.warns(KfmapsWarning, match="no point of the truth"):
-            assert assess_new(source, points, truth) is None
-    found = assess_new(source, points, Truth(ends, ends, ends + 60))
+            assert assess_if_reached(source, points, truth) is None
+    with pytest.warns(KfmapsWarning, match="no point of the truth"):  # of those that are drawn
+        assert assess_if_reached(source, points, Truth(ends, ends, ends + 100 - (ends == 1)), mirrored=25) is None
+    found = assess_if_reached(source, points, Truth(ends, ends, ends + 60))
     assert found is not None
     assert found.errors.mean == 0.0
 

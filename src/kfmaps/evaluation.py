@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps._arrays import InvalidInput, KfmapsWarning, refuse
 from kfmaps.fmap import evaluate
 from kfmaps.fmap.evaluate import Evaluation, Smoothness
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
@@ -30,6 +30,10 @@ THRESHOLDS = np.linspace(0.0, 0.25, 251)
 
 _MAX_EDGES = 1.5
 """Distance from a listed vertex, in mean edge lengths of the whole, up to which other vertices count as common."""
+
+
+class NoCounterpart(InvalidInput):
+    """A map gives no point of a truth a counterpart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +156,8 @@ def assess(
     distances = evaluate.geodesic_errors(source, np.concatenate(predicted), np.concatenate(true))
     errors = [each[~np.isnan(each)] for each in np.split(distances, [len(truth.source)])[: len(true)]]
     if any(len(each) == 0 for each in errors):
-        raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
+        expected = "a counterpart for some of the truth's points"
+        raise NoCounterpart(str(refuse("map", expected, "none", "take another map or truth")))
     direct, *others = map(evaluate.summarize_errors, errors)
     precise_errors = smoothness = None
     matched = target_to_source[truth.target] >= 0
@@ -174,18 +179,19 @@ def assess(
     return Accuracy(direct, float(matched.mean()), coverage, mirrored_errors, precise_errors, smoothness)
 
 
-def assess_new(
+def assess_if_reached(
     source: Mesh, target_to_source: np.ndarray, truth: Truth, *, mirrored: int | None = None
 ) -> Accuracy | None:
-    """Return :func:`assess` of a map that was just made, or ``None`` with a warning where it reaches no true point.
+    """Return :func:`assess`, or ``None`` with a warning where no point of the truth has a counterpart.
 
-    Such a map is kept all the same.
+    So a map that was just made is kept all the same.
     """
-    lists = [truth.target] if truth.mirrored is None else [truth.target, truth.mirrored]
-    if all((target_to_source[vertices] >= 0).any() for vertices in lists):
+    try:
         return assess(source, target_to_source, truth, mirrored=mirrored)
-    warnings.warn("no point of the truth has a counterpart in the map: no errors", KfmapsWarning, stacklevel=2)
-    return None
+    except NoCounterpart:
+        text = "no point of the truth has a counterpart in the map, so there are no errors"
+        warnings.warn(text, KfmapsWarning, stacklevel=2)
+        return None
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,7 +249,8 @@ def part_accuracy(source: Mesh, target: Mesh, match: Match, truth: PartTruth, pa
         matched, predicted, true = _compare_on_target(source, target, points, map_points, truth)
         whole = target
     if not matched.any():
-        raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
+        expected = "a counterpart for some of the truth's points"
+        raise NoCounterpart(str(refuse("map", expected, "none", "take another map or truth")))
     errors = evaluate.summarize_errors(evaluate.precise_errors(whole, predicted, true))
     true_common = _true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)

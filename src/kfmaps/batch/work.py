@@ -24,7 +24,7 @@ from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.config import Config
-from kfmaps.evaluation import Accuracy, Truth, assess_new, check_truth, read_truth, read_vertex_lists
+from kfmaps.evaluation import Accuracy, Truth, assess_if_reached, check_truth, read_truth, read_vertex_lists
 from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_vertex_numbers, save_map
@@ -252,7 +252,7 @@ def save_pair_map(task: PairTask, match: Match, shapes: tuple[Shape, Shape], pat
     source, target = (shape.mesh for shape in shapes)
     start = time.perf_counter()
     truth, points = true_vertices(task, len(source.vertices), len(target.vertices)), match.target_to_source
-    accuracy = None if truth is None else assess_new(source, points, truth, mirrored=_MIRRORED_POINTS)
+    accuracy = None if truth is None else assess_if_reached(source, points, truth, mirrored=_MIRRORED_POINTS)
     covered = coverage(points, source)
     seconds = {**match.seconds, "evaluation": time.perf_counter() - start}
     path.parent.mkdir(parents=True, exist_ok=True)

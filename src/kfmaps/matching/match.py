@@ -82,12 +82,16 @@ def match(
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     with limit_threads(config.threads):
-        stated, shapes = config.partial.part, task.shapes("preserving")
-        wholes = partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
-        detection = detect_part(shapes[0].mesh, shapes[1].mesh)
+        stated, wholes = config.partial.part, partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
         if stated == "auto":
-            return _match_detected(task, detection, wholes)
-        return _match_stated(task, stated, detection, wholes)
+            return _match_detected(task, _detect_part(task), wholes)
+        return _match_stated(task, stated, wholes)
+
+
+def _detect_part(task: MatchTask) -> PartDetection:
+    """Return which shape may be a part, as the boundaries suggest."""
+    source, target = task.shapes("preserving")
+    return detect_part(source.mesh, target.mesh)
 
 
 def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
@@ -114,7 +118,6 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
 def _match_stated(
     task: MatchTask,
     stated: Literal["none", "source", "target", "both"],
-    detection: PartDetection,
     wholes: Callable[[MatchPart], Match],
 ) -> Match:
     """Return the match with the part that the settings state.
@@ -122,13 +125,13 @@ def _match_stated(
     Where it is not "sure" and the boundaries suggest something else, the match that these suggest is the answer if it
     is "sure" or "likely", and more probable: a wrong statement makes no map worse.
     """
+    best = wholes(MatchPart()) if stated == "none" else _match_as(task, stated, "as asked for")
+    if best.verdict == "sure" or task.config.search is None:
+        return best
+    detection = _detect_part(task)
     is_cut = not _may_be_whole(detection)
-    if stated == "none":
-        best, is_backed = wholes(MatchPart()), not is_cut
-    else:
-        best = _match_as(task, stated, "as asked for")
-        is_backed = detection.which == stated and (is_cut or stated == "both")
-    if best.verdict == "sure" or is_backed or task.config.search is None:
+    is_part = detection.which == stated and (is_cut or stated == "both")
+    if is_part or (stated == "none" and not is_cut):
         return best
     if stated == "none":
         other = _match_detected(task, detection, lambda _: best)

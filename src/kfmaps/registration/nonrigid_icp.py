@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -24,7 +25,7 @@ from scipy.sparse import csr_array
 from kfmaps._arrays import refuse
 from kfmaps._records import setting, settings_record
 from kfmaps.fmap.convert import check_point_map
-from kfmaps.geometry.arap import arap_energy, build_arap, nearest_rotations, rotations
+from kfmaps.geometry.arap import arap_energy, nearest_rotations, rotations
 from kfmaps.geometry.closest_points import barycentric_matrix
 from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_vertices
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
@@ -114,16 +115,18 @@ class NonRigid:
         report = progress or (lambda _done: None)
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
         landmarks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
-        most, x, given = max(len(source.vertices), len(target.vertices)), None, (points, landmarks, pinned)
-        if most > _PROXY_FROM:
-            x, _ = self._register_proxies(source, target, *given, _PROXY_VERTICES, lambda done: report(0.3 * done))
-        pair = mesh_pair(deformable_mesh(source), target)
-        if most > _FINE_PROXY_FROM:
-            x, gap = self._register_proxies(source, target, *given, _FINE_PROXY_VERTICES, report, x)
+        n_most, x = max(len(source.vertices), len(target.vertices)), None
+        proxies = partial(self._register_proxies, source, target, points, landmarks, pinned)
+        if n_most > _PROXY_FROM:
+            x, _ = proxies(_PROXY_VERTICES, lambda done: report(0.3 * done))
+        body, normals_t = deformable_mesh(source), vertex_normals(target)
+        if n_most > _FINE_PROXY_FROM:
+            x, gap = proxies(_FINE_PROXY_VERTICES, report, x)
         else:
+            pair = mesh_pair(body, target, closest_point_query(target, normals_t))
             x, gap = self.register_vertices(pair, points, x, report, landmarks, pinned)
-        projected = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
-        energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
+        projected = project_with_contact(target_to_source, body, x, target, normals_t)
+        energy = arap_energy(body.energy, x) / float(body.areas.sum())
         return Registration(x, projected.faces, projected.weights, energy, gap)
 
     def _register_proxies(
@@ -143,15 +146,16 @@ class NonRigid:
         """
         a = coarse_proxy(source, spread_vertices(source, count, landmarks[:, 0]))
         b = coarse_proxy(target, spread_vertices(target, count, landmarks[:, 1]))
+        body = deformable_mesh(a.mesh)
         x, gap = self.register_vertices(
-            mesh_pair(deformable_mesh(a.mesh), b.mesh),
+            mesh_pair(body, b.mesh),
             a.owner[points[b.vertices]],
             None if x is None else x[a.vertices],
             report,
             np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1),
             None if pinned is None else pinned[b.vertices],
         )
-        return embedded_deformation(a, source, x, rotations(build_arap(a.mesh), x)), gap
+        return embedded_deformation(a, source, x, rotations(body.energy, x)), gap
 
     def register_vertices(
         self,

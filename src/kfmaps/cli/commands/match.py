@@ -19,7 +19,7 @@ from kfmaps.cli.summary import table
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
-from kfmaps.evaluation import assess_new, read_truth
+from kfmaps.evaluation import assess_if_reached, read_truth
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_output, read_values, save_map
 from kfmaps.io.mapcontent import summarize_match
@@ -101,7 +101,7 @@ def match(
         accuracy = None
         if correspondences is not None:
             stages("evaluation", 0.0)
-            accuracy = assess_new(meshes[0], result.target_to_source, correspondences)
+            accuracy = assess_if_reached(meshes[0], result.target_to_source, correspondences)
             stages("evaluation", 1.0)
     result = with_files(result, (source, target), meshes)
     result = replace(result, seconds={**seconds, **result.seconds})
