@@ -35,6 +35,10 @@ _MAX_EDGES = 1.5
 class NoCounterpart(InvalidInput):
     """A map gives no point of a truth a counterpart."""
 
+    def __init__(self) -> None:
+        expected = "a counterpart for some of the truth's points"
+        super().__init__(str(refuse("map", expected, "none", "take another map or truth")))
+
 
 @dataclass(frozen=True, eq=False)
 class Truth:
@@ -156,8 +160,7 @@ def assess(
     distances = evaluate.geodesic_errors(source, np.concatenate(predicted), np.concatenate(true))
     errors = [each[~np.isnan(each)] for each in np.split(distances, [len(truth.source)])[: len(true)]]
     if any(len(each) == 0 for each in errors):
-        expected = "a counterpart for some of the truth's points"
-        raise NoCounterpart(str(refuse("map", expected, "none", "take another map or truth")))
+        raise NoCounterpart
     direct, *others = map(evaluate.summarize_errors, errors)
     precise_errors = smoothness = None
     matched = target_to_source[truth.target] >= 0
@@ -249,8 +252,7 @@ def part_accuracy(source: Mesh, target: Mesh, match: Match, truth: PartTruth, pa
         matched, predicted, true = _compare_on_target(source, target, points, map_points, truth)
         whole = target
     if not matched.any():
-        expected = "a counterpart for some of the truth's points"
-        raise NoCounterpart(str(refuse("map", expected, "none", "take another map or truth")))
+        raise NoCounterpart
     errors = evaluate.summarize_errors(evaluate.precise_errors(whole, predicted, true))
     true_common = _true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)
