@@ -1,4 +1,4 @@
-"""Maps of generated things with hard edges, holes and handles: ``python benchmarks/things.py [--kinds mug,car]``.
+"""Maps of generated things with hard edges, holes and handles: ``python benchmarks/things.py [--landmarks 3]``.
 
 Nothing was chosen on these kinds. Each pair is one thing, made as the zero set of a distance field by marching cubes on
 two grids that are turned at random, simplified, stretched and bent smoothly; the target a little, usually or much by
@@ -19,6 +19,7 @@ from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 import kfmaps
+from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh
 
 Points = np.ndarray
@@ -279,15 +280,18 @@ def main() -> None:
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--pairs", type=int, default=3, help="of each kind")
     parser.add_argument("--first", type=int, default=0, help="number of the first pair of each kind")
+    parser.add_argument("--landmarks", type=int, default=0, help="right ones, spread over the target")
     arguments = parser.parse_args()
     print(f"{'kind':10} pair   error  by symmetry   verdict           CPU s")
     rows = []
     for kind in arguments.kinds.split(","):
         for number in range(arguments.first, arguments.first + arguments.pairs):
             source, target, truth = made(kind, number)
+            at = farthest_geodesic(target, arguments.landmarks, rng=1) if arguments.landmarks else []
+            landmarks = np.stack([truth[0][at], at], axis=1) if len(at) else None
             start = time.process_time()
             with kfmaps.limit_threads(1):
-                found = kfmaps.match(source, target)
+                found = kfmaps.match(source, target, landmarks=landmarks)
             seconds, points = time.process_time() - start, found.target_to_source
             known = points >= 0
             errors = [kfmaps.geodesic_errors(source, points[known], one[known]).mean() for one in truth]

@@ -18,6 +18,7 @@ from kfmaps.matching.registration_refine import SwappedRepair
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
+    is_after_symmetry,
     is_near_isometric,
     landmark_cost,
     probability,
@@ -125,12 +126,10 @@ def _close_doubts(state: SearchState) -> list[tuple[Candidate, float]]:
 def _margin(best: Candidate, other: Candidate) -> float:
     """Return the margin of ``best`` over another candidate, as the calibration takes it.
 
-    A candidate that preserves distances and descriptors as well, and deforms the shape no more than right maps do, is
-    the best map after a symmetry of the shape. Which of the two deforms the shape less depends on the poses alone, so
-    their deformation energies are left out; landmarks still tell them apart.
+    Deformation energies are left out where the other is the best map after a symmetry; landmarks still tell them apart.
     """
-    margin = best.quality.score - other.quality.score
-    if margin < SCORE.clear_margin and other.excess_deformation < 0.0:
+    if is_after_symmetry(other, best):
+        margin = best.quality.score - other.quality.score
         return margin + landmark_cost(other.landmark_errors) - landmark_cost(best.landmark_errors)
     return best.score - other.score
 
