@@ -395,11 +395,7 @@ def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
     """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""
     best, first, second = (
         SimpleNamespace(
-            score=score,
-            quality=SimpleNamespace(calibrated_score=quality),
-            deformation_energy=None,
-            excess_deformation=0.0,
-            missed=missed,
+            score=score, quality=SimpleNamespace(calibrated_score=quality), deformation_energy=None, missed=missed
         )
         for score, missed in ((0.0, [0.0, 0.02]), (ahead, [0.5, 0.4]), (-20.0, [0.5, 0.4]))
     )

@@ -51,7 +51,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     if is_most(contradicted):
         # Where left and right were exchanged, landmarks near the middle would mislead too.
         contradicted = np.ones(len(contradicted), dtype=bool)
-    gain = gain_of(free, best)
+    gain = without_landmark_errors(free).score - without_landmark_errors(best).score
     if gain > SCORE.close_margin or not (contradicted & (errors <= limit)).any():
         return contradicted, ()
     return rejected, ((free, -gain),)
@@ -77,16 +77,6 @@ def rank_by_surface(state: SearchState) -> list[Candidate]:
 def without_landmark_errors(candidate: Candidate) -> Candidate:
     """Return a candidate without landmark errors, and without evidence that is relative to other candidates."""
     return replace(candidate, landmark_errors=np.zeros(0), strain=None, shot_error=None)
-
-
-def gain_of(free: Candidate, led: Candidate) -> float:
-    """Return by how much ``free``, found without landmarks, is better than the map that landmarks have ``led`` to.
-
-    Scores are without landmarks. Where ``led`` deforms the shapes no more than right maps do, poses decide which of the
-    two deforms them less: then it is better by its quality at most.
-    """
-    gain = without_landmark_errors(free).score - without_landmark_errors(led).score
-    return min(gain, free.quality.score - led.quality.score) if led.excess_deformation < 0.0 else gain
 
 
 def ignore_landmarks(candidate: Candidate, samples: SamplePair) -> Candidate:

@@ -452,16 +452,6 @@ def is_close_but_deformed(candidate: Candidate, best: Candidate) -> bool:
     return more > SCORE.turned_deformation and behind < SCORE.close_margin
 
 
-def is_after_symmetry(candidate: Candidate, best: Candidate) -> bool:
-    """Return whether a map is the best one after a symmetry of the shape.
-
-    It preserves distances and descriptors as well, and deforms the shape no more than right maps do. Which of the two
-    deforms the shape less depends on the poses alone.
-    """
-    margin = best.quality.score - candidate.quality.score
-    return margin < SCORE.clear_margin and candidate.excess_deformation < 0.0
-
-
 def is_near_isometric(score: float) -> bool:
     """Return whether a :attr:`Quality.score` is that of near-isometric shapes, whose high functions correspond."""
     return score >= SCORE.non_isometric_score

@@ -51,8 +51,8 @@ from kfmaps.matching.landmark_conflicts import (
     contradicted_by,
     contradicted_landmarks,
     final_landmark_errors,
-    gain_of,
     is_most,
+    without_landmark_errors,
 )
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.limb_exchange import compare_exchanged
@@ -73,7 +73,6 @@ from kfmaps.matching.score import (
     SCORE,
     Candidate,
     deforms_too_much,
-    is_after_symmetry,
     is_close_but_deformed,
     max_landmark_error,
     verdict,
@@ -251,13 +250,12 @@ def _compare_with_free(
         if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
             return replace(result, confidence=found.confidence, verdict=found.verdict)
         return result
-    gain = gain_of(best, led)
+    gain = without_landmark_errors(best).score - without_landmark_errors(led).score
     if is_most(contradicted) and gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
         given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
         return _settled_result(found, given)[0] or _result(state, retries)
-    turns = is_after_symmetry(led, best) or not state.samples.fine.has_one_reflection
-    if gain > -SCORE.close_margin and not turns:
+    if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
     return _result(state, retries)
 

@@ -18,7 +18,6 @@ from kfmaps.matching.registration_refine import SwappedRepair
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
-    is_after_symmetry,
     is_near_isometric,
     landmark_cost,
     probability,
@@ -126,10 +125,12 @@ def _close_doubts(state: SearchState) -> list[tuple[Candidate, float]]:
 def _margin(best: Candidate, other: Candidate) -> float:
     """Return the margin of ``best`` over another candidate, as the calibration takes it.
 
-    Deformation energies are left out where the other is the best map after a symmetry; landmarks still tell them apart.
+    A candidate that preserves distances and descriptors as well, and deforms the shape no more than right maps do, is
+    the best map after a symmetry of the shape. Which of the two deforms the shape less depends on the poses alone, so
+    their deformation energies are left out; landmarks still tell them apart.
     """
-    if is_after_symmetry(other, best):
-        margin = best.quality.score - other.quality.score
+    margin = best.quality.score - other.quality.score
+    if margin < SCORE.clear_margin and other.excess_deformation < 0.0:
         return margin + landmark_cost(other.landmark_errors) - landmark_cost(best.landmark_errors)
     return best.score - other.score
 
