@@ -19,6 +19,7 @@ from kfmaps.collection.paths import best_path, compose_maps, invert_map
 from kfmaps.collection.repair import CyclePath, _synchronize, chirality, repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
 from kfmaps.collection.synchronization import (
+    _RESIDUAL_LIMITS,
     CandidateMap,
     Edge,
     _Problem,
@@ -164,6 +165,14 @@ def test_planted_wrong_pairs_are_found_by_cycles_alone() -> None:
     wrong = set(np.random.default_rng(2).permutation(len(pairs))[: len(pairs) // 3].tolist())
     found = synchronize(10, consistent_links(latent, pairs, wrong), K)
     assert {i for i, c in enumerate(found.probabilities) if c[0] < 0.5} == wrong
+
+
+def test_the_limit_is_that_of_right_pairs_even_where_most_are_wrong() -> None:
+    latent, pairs = rotations(6), complete_graph(6)
+    wrong = set(np.random.default_rng(3).choice(len(pairs), 8, replace=False).tolist())
+    found = synchronize(6, consistent_links(latent, pairs, wrong), K)
+    assert {i for i, c in enumerate(found.probabilities) if c[0] < 0.5} == wrong
+    assert found.limit == _RESIDUAL_LIMITS[0]
 
 
 def test_flips_that_agree_with_each_other_are_outvoted() -> None:
