@@ -19,6 +19,7 @@ from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 import kfmaps
+from kfmaps.datasets import largest_piece
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh
 
@@ -212,7 +213,8 @@ def vertebra(x: Points) -> Field:
 
 X, Y, Z = (np.diag(np.where(np.arange(3) == i, -1.0, 1.0)) for i in range(3))
 """Reflections."""
-TURNS = [Rotation.from_rotvec([0, 0, i * np.pi / 4]).as_matrix() for i in range(8)]
+TURNS = [Rotation.from_rotvec([0, 0, i * np.pi / 8]).as_matrix() for i in range(16)]
+"""A reflection of a gear takes teeth to gaps, unless it is turned by half a tooth."""
 KINDS: dict[str, tuple[Callable[[Points], Field], list[np.ndarray]]] = {
     "mug": (mug, [Y]),
     "jug": (jug, [Y]),
@@ -221,7 +223,13 @@ KINDS: dict[str, tuple[Callable[[Points], Field], list[np.ndarray]]] = {
     "bust": (bust, [X]),
     "wrench": (wrench, [Z]),
     "car": (car, [X]),
-    "gear": (gear, [turn @ other for turn in TURNS for other in (np.eye(3), X, Z, X @ Z)]),
+    "gear": (
+        gear,
+        [
+            *(t @ one for t in TURNS[::2] for one in (np.eye(3), Z)),
+            *(t @ X @ one for t in TURNS[1::2] for one in (np.eye(3), Z)),
+        ],
+    ),
     "chair": (chair, [X]),
     "guitar": (guitar, [X]),
     "bracket": (bracket, []),
@@ -244,13 +252,10 @@ def surface(field: Callable[[Points], Field], cells: int, faces: int, rng: np.ra
     shift = rng.uniform(-0.5, 0.5, 3) * (line[1] - line[0])
     values = np.concatenate([field(x) for x in np.array_split((grid + shift) @ turn, 20)])
     vertices, triangles = map(np.asarray, igl.marching_cubes(values, grid, cells, cells, cells, 0.0)[:2])
-    vertices, triangles = (vertices + shift) @ turn, triangles.astype(np.int64)
-    piece = np.asarray(igl.facet_components(triangles)[1])
-    triangles = triangles[piece == np.bincount(piece).argmax()]
-    vertices, triangles = map(np.asarray, igl.decimate(vertices, triangles, faces)[:2])
-    corners = vertices[triangles]
-    is_inward = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0
-    return Mesh(vertices, (triangles[:, ::-1] if is_inward else triangles).astype(np.int64))
+    mesh = Mesh((vertices + shift) @ turn, triangles[:, ::-1].astype(np.int64))
+    piece, _ = largest_piece(mesh, np.ones(len(vertices), dtype=bool))
+    vertices, triangles = map(np.asarray, igl.decimate(piece.vertices, piece.faces, faces)[:2])
+    return Mesh(vertices, triangles.astype(np.int64))
 
 
 def deformed(x: Points, amount: float, rng: np.random.Generator) -> Points:
