@@ -32,7 +32,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
 
     The best map contradicts some while it keeps to most of the others. A map that was found without landmarks and would
     be called "sure" or "likely" contradicts any number, unless a map that keeps to them fits the surfaces nearly as
-    well: then none is rejected for it, and each casts a doubt on the other.
+    well: then none is rejected for it, and it casts a doubt. Where it rejects most, the map that keeps to them does.
     """
     best, samples = state.ranked[0], state.samples.fine
     errors = ignore_landmarks(best, samples).landmark_errors
@@ -48,13 +48,13 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     if verdict(free.quality.calibrated_score, margin, free.deformation_energy) not in ("sure", "likely"):
         return rejected, ()
     contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
-    if is_most(contradicted):
-        # Where left and right were exchanged, landmarks near the middle would mislead too.
-        contradicted = np.ones(len(contradicted), dtype=bool)
     gain = without_landmark_errors(free).score - without_landmark_errors(best).score
-    if gain > SCORE.close_margin or not (contradicted & (errors <= limit)).any():
+    if gain <= SCORE.close_margin and (contradicted & (errors <= limit)).any():
+        return rejected, ((free, -gain),)
+    if not is_most(contradicted):
         return contradicted, ()
-    return rejected, ((free, -gain),)
+    # Where left and right were exchanged, landmarks near the middle would mislead too.
+    return np.ones(len(contradicted), dtype=bool), ((best, gain),)
 
 
 def is_most(which: np.ndarray) -> bool:

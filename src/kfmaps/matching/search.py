@@ -215,7 +215,7 @@ def _search_with_landmarks(
     rejected, doubts = contradicted_landmarks(ranked)
     if rejected.any():
         state = replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected))
-        settled, is_close = _settled_result(found, state)
+        settled, is_close = _settled_result(found, replace(state, doubts=doubts))
         if settled is not None and is_close:
             return settled
         ranked = rank(state)
@@ -253,7 +253,8 @@ def _compare_with_free(
     gain = without_landmark_errors(best).score - without_landmark_errors(led).score
     if is_most(contradicted) and gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
-        given = replace(given, rejected=rejected, samples=drop_landmarks(given.samples, rejected))
+        samples = drop_landmarks(given.samples, rejected)
+        given = replace(given, rejected=rejected, samples=samples, doubts=((led, gain),))
         return _settled_result(found, given)[0] or _result(state, retries)
     if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
@@ -275,7 +276,8 @@ def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[Sea
     errors = final_landmark_errors(best.ranked[0], state)[~state.rejected]
     if (errors > max_landmark_error(found.quality)).any():
         return None, False
-    marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected)
+    doubts = (*best.doubts, *state.doubts)
+    marked = replace(best, landmarks=state.landmarks, evidence=state.evidence, rejected=state.rejected, doubts=doubts)
     is_close = found.quality < SCORE.repair_score or errors.sum() <= len(errors) * SCORE.max_mean_landmark_error
     is_close = is_close and errors.max(initial=0.0) <= SCORE.max_isometric_landmark_error
     return _result(replace(marked, samples=state.samples), found.retries), is_close
