@@ -957,8 +957,8 @@ MUTANTS = tuple(
         ),
         ("return share**2 * float(", "return share * float(", "test_score -k landmarks_support"),
         (
-            "gain > SCORE.close_margin or not (contradicted",
-            "gain > SCORE.close_margin and not (contradicted",
+            "gain <= SCORE.close_margin and (contradicted",
+            "gain <= SCORE.close_margin or (contradicted",
             "test_landmark_evidence -k all_landmarks",
         ),
         ("margins.append(0.0)", "margins.append(9.0)", "test_automatic -k without_orientation"),

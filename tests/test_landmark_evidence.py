@@ -392,7 +392,11 @@ def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(
 def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
     monkeypatch: pytest.MonkeyPatch, ahead: float, quality: float, outcome: str
 ) -> None:
-    """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""
+    """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing.
+
+    Where it rejects all, another map that keeps to them casts a doubt: they may be right.
+    """
+    apart = SCORE.distinct_distance * 1.01
     best, first, second = (
         SimpleNamespace(
             score=score, quality=SimpleNamespace(calibrated_score=quality), deformation_energy=None, missed=missed
@@ -403,7 +407,7 @@ def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
         one.unregistered, one.landmark_errors = one, np.array(one.missed)
     monkeypatch.setattr(landmark_conflicts, "ignore_landmarks", lambda one, *_: one)
     monkeypatch.setattr(landmark_conflicts, "without_landmark_errors", lambda one: one)
-    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda *_: 1.0)
+    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda one, *_: apart if one is best else 1.0)
     monkeypatch.setattr(landmark_conflicts, "rank_by_surface", lambda _: [first, second])
     fine = SimpleNamespace(source=None)
     state: Any = SimpleNamespace(
@@ -411,6 +415,7 @@ def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
     )
     wrong, doubts = landmark_conflicts.contradicted_landmarks(state)
     assert wrong.tolist() == 2 * [outcome == "left out"]
-    assert [(one, margin) for one, margin in doubts if margin < SCORE.close_margin] == (
-        [(first, -ahead)] if outcome == "doubt" else []
-    )
+    counted = [(one, margin) for one, margin in doubts if one is best or margin < SCORE.close_margin]
+    assert counted == {"doubt": [(first, -ahead)], "left out": [(best, ahead)], "none": []}[outcome]
+    apart = SCORE.distinct_distance * 0.99
+    assert all(one is first for one, _ in landmark_conflicts.contradicted_landmarks(state)[1])

@@ -401,9 +401,8 @@ def test_a_map_without_landmarks_that_contradicts_most_rejects_or_doubts_them(
     assert state.rejected.all() == (outcome == "rejected")
     assert result.retries == (() if outcome == "rejected" else (right,))
     assert len(result.rejected_landmarks) == (len(at) if outcome == "rejected" else np.greater(errors, 0.3).sum())
-    assert [(c.name, round(margin, 6)) for c, margin in state.doubts] == (
-        [("truth", -gain)] if outcome == "doubted" else []
-    )
+    doubts = {"rejected": [("led", gain)], "doubted": [("truth", -gain)]}
+    assert [(c.name, round(margin, 6)) for c, margin in state.doubts] == doubts.get(outcome, [])
     if outcome != "rejected":
         assert (result.verdict == "sure") == (outcome != "doubted")
     assert search._compare_with_free(None, led, (), given).verdict == "sure"

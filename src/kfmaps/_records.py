@@ -222,7 +222,7 @@ def _update(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds: 
     for name, value in _table(values, path).items():
         if name not in settings:
             expected = f"one of {', '.join(settings)}" if settings else "no setting"
-            remedy = "check the spelling; files of another version of kfmaps must be made anew"
+            remedy = "check the spelling; files of another version of kfmaps must be made again"
             raise refuse(path or "settings", expected, repr(name), remedy)
         now, then = getattr(current, name, None), getattr(fresh, name, None)
         changes[name] = _value(settings[name], value, now, then, f"{path}.{name}" if path else name, kinds)

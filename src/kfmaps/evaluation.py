@@ -187,7 +187,7 @@ def assess_if_reached(
 ) -> Accuracy | None:
     """Return :func:`assess`, or ``None`` with a warning where no point of the truth has a counterpart.
 
-    So a map that was just made is kept all the same.
+    So a map that was just made is still kept.
     """
     try:
         return assess(source, target_to_source, truth, mirrored=mirrored)

@@ -89,7 +89,7 @@ def read_run_spec(folder: Path) -> dict[str, object]:
     except FileNotFoundError as error:
         raise refuse(f"{folder}", "an output folder of kfmaps batch", f"no {FILE} in it", "check the path") from error
     except (OSError, ValueError, RecursionError) as error:
-        raise refuse(f"{path}", "the settings of a run", str(error), "remove it to begin anew") from error
+        raise refuse(f"{path}", "the settings of a run", str(error), "remove it to begin again") from error
     if not isinstance(values, dict) or "digest" not in values:
-        raise refuse(f"{path}", "the settings of a run", "other content", "remove it to begin anew")
+        raise refuse(f"{path}", "the settings of a run", "other content", "remove it to begin again")
     return values

@@ -35,7 +35,7 @@ TruthLists = Annotated[
     ),
 ]
 Identity = Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")]
-UpAxis = Annotated[str | None, typer.Option(help="The axis that points upwards: x, y or z; default: found.")]
+UpAxis = Annotated[str | None, typer.Option(help="The axis that points upwards: x, y or z; default: detected.")]
 Workers = Annotated[
     str | None,
     typer.Option(
@@ -45,7 +45,7 @@ Workers = Annotated[
 Require = Annotated[
     str | None,
     typer.Option(
-        help=f"Exit with status {UNSURE} where a verdict is worse; the map is written all the same.",
+        help=f"Exit with status {UNSURE} if a verdict is worse; the map is still written.",
         metavar="|".join(_VERDICTS),
     ),
 ]

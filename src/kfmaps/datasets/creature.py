@@ -1,4 +1,4 @@
-"""The creature: its limbs, two poses, other proportions, and a relative that is the same on both sides.
+"""The creature: its limbs, two poses, different proportions, and a relative that is the same on both sides.
 
 It faces +z, its left is +x and up is +y; standing, it is about two high.
 """
@@ -115,5 +115,5 @@ _PROPORTIONS = {
 
 
 def with_proportions(pose: dict[str, Bend]) -> dict[str, Bend]:
-    """Return the ``pose`` of the creature with other proportions."""
+    """Return the ``pose`` of the creature with different proportions."""
     return {name: Bend(pose.get(name, Bend()).turns, *factors) for name, factors in _PROPORTIONS.items()}

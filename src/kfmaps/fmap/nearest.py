@@ -15,7 +15,7 @@ from kfmaps.fmap.approximate_nearest import N_PROBE, approximate_nearest
 
 _TREE_POINTS = 20_000  # points beyond which a k-d tree is built
 
-_TIE = 1e-12  # relative difference below which two distances from the tree are compared anew
+_TIE = 1e-12  # relative difference below which two distances from the tree are compared again
 
 EXACT_PAIRS = 10_000**2
 """Queries times points up to which the search is exact by default."""

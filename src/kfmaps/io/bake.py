@@ -267,7 +267,7 @@ def transfer_texture(
 
     A target with room for each face in its own atlas keeps it, and the picture is resampled into that. Otherwise, with
     a warning where it has an atlas, it gets the source's coordinates and picture. Faces over a seam of the texture are
-    then drawn anew, each into a place of its own in rows that are added below the picture.
+    then drawn again, each into a place of its own in rows that are added below the picture.
 
     ``picture``: the source's; ``size``: longer side of the picture in texels; by default the source's, within bounds.
     """
@@ -288,7 +288,7 @@ def transfer_texture(
     height, width = pixels.shape[:2]
     corners = uv_map.uv[uv_map.uv_faces]
     # With rows below, the picture does not repeat. All faces move into its first copy, and those over its edge are
-    # drawn anew as well.
+    # drawn again as well.
     tile = np.floor(corners.min(axis=1) + 1e-6)
     redrawn = uv_map.torn | ((corners.max(axis=1) - 1e-6 > tile + 1).any(axis=1))
     packed, rows = _pack(edges[redrawn] * width, width)

@@ -162,7 +162,7 @@ def transfer_back(values_t: np.ndarray, counterparts: Counterparts, lost: ArrayL
 def transfer_by_functions(values: np.ndarray, match: Match, source: Mesh, target: Mesh, products: int) -> np.ndarray:
     """Transfer ``values (n_s, ...)`` by the functional map and products of eigenfunctions, (n_t, ...) float64.
 
-    See :func:`kfmaps.fmap.transfer.transfer_functions`. Eigenfunctions are computed anew, and their signs may differ.
+    See :func:`kfmaps.fmap.transfer.transfer_functions`. Eigenfunctions are computed again, and their signs may differ.
     So ``C = Φ_tᵀ A_t Φ_s[map]`` comes from the map's points, with the size of the match's functional map.
     """
     if values.dtype.kind not in "fiu":

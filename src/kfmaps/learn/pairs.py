@@ -78,7 +78,7 @@ def training_pair(
         raise refuse("settings to learn from", "features and the terms of the paper", got, "leave it out")
     formulation = config.formulation
     if replace(Formulation(), mask=formulation.mask, mask_power=formulation.mask_power) != formulation:
-        remedy = "leave the formulation out but for its mask"
+        remedy = "leave out the formulation except for its mask"
         raise refuse("settings to learn from", "an energy that is quadratic in one map", repr(formulation), remedy)
     rng = np.random.default_rng(rng)
     landmarks = check_landmark_pairs(landmarks, source, target)

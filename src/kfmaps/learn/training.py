@@ -262,7 +262,7 @@ def load(path: str | Path) -> tuple[State, str, JsonObject]:
         state = State(tensors[0], tensors[1], dict(content["optimizer"]), history)
         return state, str(content["settings"]), dict(content["request"])
     except (KeyError, TypeError, ValueError) as error:
-        raise refuse(f"{path}", "a file of kfmaps learn", f"one without {error}", "learn anew") from error
+        raise refuse(f"{path}", "a file of kfmaps learn", f"one without {error}", "learn again") from error
 
 
 def learning_figure(history: Sequence[Epoch]) -> Figure:

@@ -54,7 +54,18 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     if not is_most(contradicted):
         return contradicted, ()
     # Where left and right were exchanged, landmarks near the middle would mislead too.
-    return np.ones(len(contradicted), dtype=bool), ((best, gain),)
+    return np.ones(len(contradicted), dtype=bool), doubt_of_led(best, free, gain, samples)
+
+
+def doubt_of_led(
+    led: Candidate, free: Candidate, margin: float, samples: SamplePair
+) -> tuple[tuple[Candidate, float], ...]:
+    """Return the doubt that the map ``led`` by rejected landmarks casts on the ``free`` one, if they differ.
+
+    They may be right, as on a vase that half a turn preserves.
+    """
+    differs = map_distance(led, free, samples.source) > SCORE.distinct_distance
+    return ((led, margin),) if differs else ()
 
 
 def is_most(which: np.ndarray) -> bool:

@@ -163,7 +163,7 @@ def _match_holed(
 ) -> Match:
     """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
 
-    A body with holes is matched well either way, one of other proportions only as a whole. Where little is missing the
+    A body with holes is matched well either way, one of different proportions only as a whole. If little is missing the
     full search for a part comes last, since it takes longer than all else.
     """
     part, as_wholes, is_clear = None, MatchPart(reason=_FIT_AS_WHOLES, suspected=True), True

@@ -211,7 +211,7 @@ class Match:
     def energies(self, functional_map: ArrayLike | None = None) -> dict[str, float]:
         """Return the weighted value of each term of the energy that ``config`` asks for.
 
-        The energy is assembled anew, which takes about as long as one fit. It knows the landmarks that the map keeps
+        The energy is assembled again, which takes about as long as one fit. It knows the landmarks that the map keeps
         to; descriptors that were handed to :func:`kfmaps.match` are not in it.
 
         Parameters

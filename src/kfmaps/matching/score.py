@@ -42,7 +42,7 @@ class Calibration:
     """Slope of a steeper logistic function, which rises to :attr:`sure` and no further: few maps are wrong above its
     middle, but those that are may lie anywhere."""
     steep_middle: float = -12.0
-    """Its middle, between right maps of bodies of other species and maps of shapes that have nothing in common."""
+    """Its middle, between right maps of bodies of different species and maps of shapes that have nothing in common."""
     tie: float = 1.4
     """Margin at which the doubt cast by a different map has fallen to 1/e. A map that swaps front and back has been
     better than the right one by 2.1."""
@@ -444,7 +444,7 @@ def deforms_too_much(candidate: Candidate) -> bool:
 
 
 def is_close_but_deformed(candidate: Candidate, best: Candidate) -> bool:
-    """Return whether a map is about as good as the best but for its much greater deformation energy."""
+    """Return whether a map is about as good as the best except for its much greater deformation energy."""
     if candidate.deformation_energy is None or best.deformation_energy is None:
         return False
     more = deformation_cost(candidate.deformation_energy) - deformation_cost(best.deformation_energy)

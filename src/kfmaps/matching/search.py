@@ -13,7 +13,7 @@ mirrored, or mirrored on half of the body. A search therefore compares many maps
    (:mod:`~kfmaps.matching.orientation`).
 5. Landmarks that the best map contradicts are rejected, and steps 2 to 4 are repeated without them
    (:mod:`~kfmaps.matching.landmark_conflicts`).
-6. The best map is compared with those that are as good but for their deformation, once these are repaired, and with
+6. The best map is compared with those that are as good except for their deformation, once these are repaired, and with
    itself with two similar limbs exchanged (:mod:`~kfmaps.matching.limb_exchange`).
 7. Between unlike shapes the best candidates, or the best alone where it is "sure", are registered and refined in turn,
    and ranked again (:mod:`~kfmaps.matching.registration_refine`).
@@ -50,6 +50,7 @@ from kfmaps.matching.initial_maps import Start, drop_learned
 from kfmaps.matching.landmark_conflicts import (
     contradicted_by,
     contradicted_landmarks,
+    doubt_of_led,
     final_landmark_errors,
     is_most,
     without_landmark_errors,
@@ -253,8 +254,8 @@ def _compare_with_free(
     gain = without_landmark_errors(best).score - without_landmark_errors(led).score
     if is_most(contradicted) and gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
-        samples = drop_landmarks(given.samples, rejected)
-        given = replace(given, rejected=rejected, samples=samples, doubts=((led, gain),))
+        samples, doubts = drop_landmarks(given.samples, rejected), doubt_of_led(led, best, gain, given.samples.fine)
+        given = replace(given, rejected=rejected, samples=samples, doubts=doubts)
         return _settled_result(found, given)[0] or _result(state, retries)
     if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
@@ -318,9 +319,9 @@ def _repaired(candidate: Candidate, state: SearchState) -> Candidate:
 
 
 def _repair_rivals(state: SearchState) -> SearchState:
-    """Repair the candidates that are as good as the best but for their deformation, and rank them again.
+    """Repair the candidates that are as good as the best except for their deformation, and rank them again.
 
-    A map that is as good but for one turned limb is a rival to the best only when that is repaired.
+    A map that is as good except for one turned limb is a rival to the best only when that is repaired.
     """
     (best, *rest), proxies = state.ranked, state.proxies
     near = N_REGISTERED - 1

@@ -1,4 +1,4 @@
-"""Local scaling of the rest shape during a registration, for bodies of other proportions.
+"""Local scaling of the rest shape during a registration, for bodies of different proportions.
 
 As-rigid-as-possible energies penalise every change of size. So between a cat and a dog, or a woman and a gorilla, the
 energy is not least at the true correspondence: longer or thicker limbs slide. Registrations with affine transformations

@@ -52,7 +52,7 @@ _FINE_PROXY_FROM, _FINE_PROXY_VERTICES = 50_000, 40_000
 """Vertices above which the last level is of finer proxies, and vertices of these: factorisations of all take too much
 time and memory (research/speed.md)."""
 _SCALED_LANDMARK_PULL = (30.0, 0.1)
-"""The pull of landmarks with local scaling, between shapes of other proportions, whose maps are less exact than
+"""The pull of landmarks with local scaling, between shapes of different proportions, whose maps are less exact than
 clicks."""
 
 
@@ -79,7 +79,7 @@ class NonRigid:
     n_levels: int = setting(3, "levels, each a third (10^-1/2) as stiff as the one before", low=1)
     steps: int = setting(5, "searches for closest points at each level", low=1)
     rotation_smoothing: float = setting(1e-3, "area over which rotations are averaged", low=0)
-    local_scaling: float = setting(0.0, "area over which sizes may change evenly, for other proportions", low=0)
+    local_scaling: float = setting(0.0, "area over which sizes may change evenly, for different proportions", low=0)
 
     def __call__(
         self,

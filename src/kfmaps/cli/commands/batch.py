@@ -33,7 +33,7 @@ def batch(
     folder: Annotated[Path, typer.Argument(help="A folder of shapes.", metavar="DIR")],
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.")],
     settings: SettingsOptions,
-    pairs: Annotated[Path | None, typer.Option(help="Two names a line; default: the folder's test_pairs.txt.")] = None,
+    pairs: Annotated[Path | None, typer.Option(help="Two names per line; default: the folder's test_pairs.txt")] = None,
     graph: Annotated[
         str | None,
         typer.Option(
@@ -63,7 +63,7 @@ def batch(
 ) -> None:
     """Match many pairs in parallel: a table, every map and a summary page.
 
-    Stopped and started again with the same arguments it goes on where it was.
+    A run that was stopped continues when the same command is given again.
     """
     check_required(require)
     processes = parse_workers(workers)

@@ -33,9 +33,9 @@ _SHAPES = ("two-poses", "non-isometric", "partial")
 def demo(
     output: Annotated[Path, typer.Option("-o", "--output", help="The picture (.png, .svg, .pdf).")] = Path("demo.png"),
     shape: Annotated[str, typer.Option(help=f"Which pair: {', '.join(_SHAPES)}.")] = "two-poses",
-    vertices: Annotated[int, typer.Option(help="Of the source, from 1500 to 300000.")] = 6000,
+    vertices: Annotated[int, typer.Option(help="Vertices of the source, from 1500 to 300000.")] = 6000,
     landmarks: Annotated[
-        int, typer.Option(help="How many to take from the truth, for the comparison.", min=1, max=100)
+        int, typer.Option(help="Number of landmarks taken from the truth for the comparison.", min=1, max=100)
     ] = 6,
     seed: Annotated[int, typer.Option(help="For the shapes and for the match.", min=0)] = 0,
     write: Annotated[

@@ -52,7 +52,7 @@ from kfmaps.viz.page import check_up
 from kfmaps.viz.picker import InteractiveMatcher, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
 
-_Port = Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)]
+_Port = Annotated[int, typer.Option(help="Port of this machine; 0 chooses a free one.", min=0, max=65535)]
 _OpenPage = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")]
 
 
@@ -128,8 +128,8 @@ def transfer(
         list[Path],
         typer.Option(
             "--from",
-            help="Landmarks of a scan, called as the scan is: .mrk.json, .fcsv, .tps, .pts, .csv or .particles. "
-            "Several give the median of what each of them proposes.",
+            help="Landmarks of a scan, named like the scan: .mrk.json, .fcsv, .tps, .pts, .csv or .particles. "
+            "With several, the median of their proposals is used.",
             metavar="FILE [FILE ...]",
         ),
     ],
@@ -148,7 +148,7 @@ def transfer(
 ) -> None:
     """Carry the landmarks of one or several specimens to all scans of a folder.
 
-    Stopped and started again with the same arguments it goes on where it was.
+    A run that was stopped continues when the same command is given again.
     """
     processes = parse_workers(workers)
     collection = find_collection(scans)
@@ -213,8 +213,8 @@ def review(
 ) -> None:
     """Look at the landmarks of each specimen on a local page, move those that are wrong, accept those that are right.
 
-    Tables and statistics are written anew at each save. The same landmarks transfer as before keeps the corrections,
-    and fits the maps of corrected specimens to them.
+    Each save writes tables and statistics again. Running landmarks transfer again keeps the corrections and fits the
+    maps of corrected specimens to them.
     """
     with warnings.catch_warnings(action="ignore", category=KfmapsWarning):  # kfmaps landmarks transfer has shown them
         _serve(ReviewServer(study, port, up), {"output": [study]}, browser, json)

@@ -79,7 +79,7 @@ def learn(
             metavar="NAME=NUMBER", help="Repeatable: " + ", ".join(f"{k} ({v:g})" for k, v in NUMBERS.items()) + "."
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace existing files and start anew.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace existing files and start again.")] = False,
     json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -230,7 +230,7 @@ def _read_state(path: Path, request: JsonObject) -> State:
     state, _, before = load(path)
     differing = [name for name in request if before.get(name) != request[name]]
     if differing:
-        remedy = "give the same arguments to continue, --force to start anew, or another output"
+        remedy = "give the same arguments to continue, --force to start again, or another output"
         raise refuse(f"{path}", "the state of the same run", f"another {', '.join(differing)}", remedy)
     return state
 

@@ -42,8 +42,8 @@ def match(
     landmarks: Annotated[
         list[Path] | None,
         typer.Option(
-            help='Pairs of vertices, "source target" a line, counted from 0; or, given twice, the landmarks of SOURCE '
-            "and of TARGET (.mrk.json, .fcsv, .tps, .pts, .csv)."
+            help='Pairs of vertices, "source target" per line, counted from 0; or, given twice, the landmarks of '
+            "SOURCE and of TARGET (.mrk.json, .fcsv, .tps, .pts, .csv)."
         ),
     ] = None,
     one_based: Annotated[
@@ -59,7 +59,7 @@ def match(
     seed: Annotated[int, typer.Option(help="For the choice of samples; the same seed, the same map.", min=0)] = 0,
     descriptors: Annotated[
         tuple[Path, Path] | None,
-        typer.Option(help="Your own descriptors, a row per vertex (.npy, .csv, .txt).", metavar="SOURCE TARGET"),
+        typer.Option(help="Your own descriptors, one row per vertex (.npy, .csv, .txt).", metavar="SOURCE TARGET"),
     ] = None,
     truth: TruthLists = None,
     require: Require = None,

@@ -26,13 +26,14 @@ app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a disp
 
 Output = Annotated[Path, typer.Option("-o", "--output", help="The figure: .png, .svg or .pdf.")]
 Dpi = Annotated[float, typer.Option(help="Dots per inch, of the surfaces in SVG and PDF too.", min=20, max=2400)]
-Title = Annotated[str | None, typer.Option(help="Written above.")]
+Title = Annotated[str | None, typer.Option(help="Title of the figure.")]
 From = Annotated[
     tuple[float, float, float] | None,
     typer.Option("--from", help="Look at the source from this direction.", metavar="X Y Z"),
 ]
 Up = Annotated[
-    tuple[float, float, float] | None, typer.Option(help="What is up in the picture; with --from.", metavar="X Y Z")
+    tuple[float, float, float] | None,
+    typer.Option(help="The upward direction in the picture; with --from.", metavar="X Y Z"),
 ]
 
 
@@ -43,7 +44,7 @@ def render_pair(
     source: SourceMesh = None,
     target: TargetMesh = None,
     truth: TruthLists = None,
-    limit: Annotated[float | None, typer.Option(help=f"Error at which its colours end, in {UNIT}.")] = None,
+    limit: Annotated[float | None, typer.Option(help=f"Error at which the colour scale ends, in {UNIT}.")] = None,
     title: Title = None,
     towards: From = None,
     up: Up = None,
@@ -64,10 +65,8 @@ def render_grid(
     folder: Annotated[Path, typer.Argument(help="Output folder of kfmaps batch.")],
     source: Annotated[str, typer.Option(help="The shape whose colours all targets get.")],
     output: Output,
-    targets: Annotated[
-        str | None, typer.Option(help="Names with commas between; default: all it was matched to.")
-    ] = None,
-    columns: Annotated[int | None, typer.Option(help="Default: a balanced figure.")] = None,
+    targets: Annotated[str | None, typer.Option(help="Comma-separated names; default: all it was matched to.")] = None,
+    columns: Annotated[int | None, typer.Option(help="Columns of the figure; default: balanced.")] = None,
     errors: Annotated[bool, typer.Option(help=f"Mean error ({UNIT}) beside each name, where known.")] = True,
     title: Title = None,
     towards: From = None,
@@ -113,7 +112,7 @@ def render_grid(
 def render_curves(
     folders: Annotated[list[Path], typer.Argument(help="Output folders of kfmaps batch.")],
     output: Output,
-    labels: Annotated[str | None, typer.Option(help="Names with commas between; default: the folders'.")] = None,
+    labels: Annotated[str | None, typer.Option(help="Comma-separated names; default: the folders'.")] = None,
     title: Title = None,
     dpi: Dpi = 300,
     json: Json = False,

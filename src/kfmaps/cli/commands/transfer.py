@@ -31,14 +31,15 @@ def transfer(
         typer.Option(
             min=2,
             metavar="NUMBER",
-            help="Carry VALUES by the functional map, with products of so many eigenfunctions, not by points; 20 say.",
+            help="Carry VALUES by the functional map, with products of this many eigenfunctions (20, say).",
         ),
     ] = None,
     back: Annotated[bool, typer.Option("--back", help="From the target to the source.")] = False,
     source: SourceMesh = None,
     target: TargetMesh = None,
     lost: Annotated[
-        float | None, typer.Option(help="For vertices without counterpart; default: NaN, -1 of whole numbers.")
+        float | None,
+        typer.Option(help="Value for vertices without a counterpart; default: NaN, or -1 for whole numbers."),
     ] = None,
     json: Json = False,
     force: Force = False,

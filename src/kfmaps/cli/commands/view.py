@@ -23,7 +23,7 @@ def view(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Write this HTML file; do not open it.")] = None,
     truth: TruthLists = None,
     identity: Identity = False,
-    descriptors: Annotated[bool, typer.Option(help="Work out descriptors to show.")] = True,
+    descriptors: Annotated[bool, typer.Option(help="Compute descriptors to show.")] = True,
     up: UpAxis = None,
     json: Json = False,
     force: Force = False,

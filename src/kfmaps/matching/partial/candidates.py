@@ -118,7 +118,7 @@ def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
 
 
 def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:
-    """Place and register the part anew from where it lies, until that makes it no better."""
+    """Place and register the part again from where it lies, until that makes it no better."""
     for i in range(_ROUNDS[1]):
         before, one = one.score, _place_again(one, pair)
         if i + 1 >= _ROUNDS[0] and one.score < before + SCORE.part.min_gain:

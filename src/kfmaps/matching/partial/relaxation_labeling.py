@@ -7,7 +7,7 @@ bounds are exact for isometric shapes.
 
 First each of a few samples has a few candidates, whose support for each other is iterated until one of them dominates
 (relaxation labelling, Hummel and Zucker 1983, with the pairwise consistency of Leordeanu and Hebert 2005). Then each
-sample is assigned anew among all samples of the whole, by its distances to the nearest trusted samples.
+sample is assigned again among all samples of the whole, by its distances to the nearest trusted samples.
 """
 
 from __future__ import annotations
@@ -134,7 +134,7 @@ def reassign(
     placed: Assignment,
     n_landmarks: int = 0,
 ) -> Assignment:
-    """Place every sample anew among all of the whole's, by its 40 nearest trusted neighbours and its descriptor.
+    """Place every sample again among all of the whole's, by its 40 nearest trusted neighbours and its descriptor.
 
     The parameters are those of :func:`relax`, with the assignment so far.
     """

@@ -130,7 +130,7 @@ def _compute_shot(pair: PartPair, params: RelaxationParams) -> None:
 
 
 def place_all(pair: PartPair, one: Placement) -> Placement:
-    """Place all samples anew, at the same scale."""
+    """Place all samples again, at the same scale."""
     n_landmarks = pair.part.n_landmarks
     placed = reassign(pair.bounds(one.scale), pair.whole.distances, one.similarity, one.placed, n_landmarks)
     if pair.both_partial:
