@@ -149,12 +149,11 @@ def settings_record(cls: type[_T]) -> type[_T]:
     for name, usual in (("__post_init__", check_record), ("__repr__", short_repr)):
         if name not in vars(cls):
             setattr(cls, name, usual)
-    text = [cleandoc(cls.__doc__ or ""), "", "Attributes", "----------"]
+    text, heading, examples = cleandoc(cls.__doc__ or "").partition("\n\nExamples\n")
     record: Any = dataclass(frozen=True)(cls)
     record.is_settings_record = True
-    for f in fields(record):
-        text += [f"{f.name} : {f.type}", f"    {f.metadata.get('help', '')}"]
-    record.__doc__ = "\n".join(text)
+    lines = [f"{f.name} : {f.type}\n    {f.metadata.get('help', '')}" for f in fields(record)]
+    record.__doc__ = "\n".join([f"{text}\n", "Attributes", "----------", *lines]) + heading + examples
     return record
 
 

@@ -57,6 +57,11 @@ def limit_threads(count: int | None) -> Iterator[None]:
     ------
     InvalidInput
         When ``count`` is not a whole number above zero.
+
+    Examples
+    --------
+    >>> with kfmaps.limit_threads(1):
+    ...     shape = kfmaps.prepare(kfmaps.datasets.sphere(500))
     """
     before = _state.n_threads
     if count is not None:

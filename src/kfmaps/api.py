@@ -63,11 +63,12 @@ def match(
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
-    Many candidate maps are computed and compared (:mod:`kfmaps.matching.search`), and the result has a probability.
-    Landmarks, if any, guide the candidates and help to choose between them. Landmarks are rejected, and reported, where
-    a map agrees with most of the others and contradicts them. With ``config.search`` of ``None`` there is a single fit,
-    which needs landmarks to resolve symmetries. Where ``config.partial`` or the boundaries say that one shape is a part
-    of the other, it is placed there, and vertices without a counterpart have −1 (:mod:`kfmaps.matching.partial`).
+    Many candidate maps are computed and compared (:mod:`kfmaps.matching.search`). The result comes with the probability
+    that it is right. Landmarks, if any, guide the candidates and help to choose between them. A landmark is rejected,
+    and reported, if a map agrees with most of the others and contradicts it. With ``config.search=None`` there is a
+    single fit, which needs landmarks to resolve symmetries. If ``config.partial`` or the boundaries say that one shape
+    is a part of the other, it is placed there, and vertices without a counterpart have −1
+    (:mod:`kfmaps.matching.partial`).
 
     Parameters
     ----------
@@ -88,12 +89,26 @@ def match(
         ``True`` shows bars on a terminal and in notebooks, and lines elsewhere. A callable gets ``(stage, done)`` with
         ``done`` from 0 to 1.
 
+    Returns
+    -------
+    Match
+        With ``target_to_source (n_t,)``, a source vertex for each target vertex, and how likely it is right.
+
     Raises
     ------
     InvalidInput
         When a shape, the landmarks or the descriptors cannot be used; the message says what to do.
     NotConverged
         When the eigensolver misses its tolerance.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> result = kfmaps.match(pair.source, pair.target)
+    >>> result.verdict
+    'sure'
+    >>> result.target_to_source.shape == (len(pair.target.vertices),)
+    True
     """
     _check_config(config)
     shapes = (source, target)
@@ -120,12 +135,23 @@ def prepare(
     progress : bool or callable, optional
         As in :func:`match`.
 
+    Returns
+    -------
+    Shape
+        The cleaned shape at unit area, with its basis and descriptors.
+
     Raises
     ------
     InvalidInput
         When the shape cannot be used, or has too few vertices for the eigenfunctions.
     NotConverged
         When the eigensolver misses its tolerance.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> kfmaps.prepare(pair.source).basis.functions.shape
+    (1500, 100)
     """
     _check_config(config)
     name = name or (Path(shape).name if is_file(shape) else "shape")
@@ -158,6 +184,13 @@ def transfer(
     ------
     InvalidInput
         When the map names a vertex that has no value, or the source has another number of vertices.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> heights = pair.source.vertices[:, 1]
+    >>> kfmaps.transfer(heights, pair.truth).shape
+    (1200,)
     """
     mesh = None if source is None else as_mesh(source, "source")
     return transfer_values(values, as_map(map, mesh), None if mesh is None else mesh.faces, lost)
@@ -184,6 +217,13 @@ def geodesic_errors(source: ShapeLike, predicted: MapLike, true: TruthLike | Poi
     ------
     InvalidInput
         When the two differ in length, or have vertices that the source does not have.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> wrong = np.zeros(1200, dtype=int)  # every target vertex goes to the first source vertex
+    >>> bool(kfmaps.geodesic_errors(pair.source, wrong, pair.truth).mean() > 0.5)
+    True
     """
     mesh = as_mesh(source, "source")
     points = predicted if isinstance(predicted, PointMap) else as_map(predicted).target_to_source
@@ -236,6 +276,14 @@ def zoomout(
     References
     ----------
     Melzi et al., ZoomOut: Spectral upsampling for efficient shape correspondence, 2019.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> source, target = (kfmaps.laplace_basis(mesh, 60) for mesh in (pair.source, pair.target))
+    >>> C = kfmaps.to_functional(pair.truth, source.truncate(10), target.truncate(10))
+    >>> kfmaps.zoomout(C, source, target).functional_map.shape
+    (60, 60)
     """
     bases = [shape.basis if isinstance(shape, Shape) else shape for shape in (source, target)]
     for basis, name in zip(bases, ("source", "target"), strict=True):
@@ -288,6 +336,11 @@ def render(
     ------
     InvalidInput
         When the shapes are not known, or the map or the truth does not fit them.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> figure = kfmaps.render(pair.truth, pair.source, pair.target, title="The truth")
     """
     from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
 
@@ -339,6 +392,11 @@ def view(
     -------
     Path or None
         The page, one file that needs no network; ``None`` in a notebook's cell.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> page = kfmaps.view(pair.truth, pair.source, pair.target, output="page.html", descriptors=False)
     """
     from kfmaps.viz.result_pages import in_notebook, open_page, show_in_cell
 

@@ -60,6 +60,12 @@ class Shape:
         Radius of ``shot``, in units of √area.
     extent : float or None
         √area before scaling; ``None`` for a point cloud.
+
+    Examples
+    --------
+    >>> shape = kfmaps.prepare(kfmaps.datasets.torus(1000))
+    >>> shape.mesh, shape.shot.shape
+    (Mesh(1,000 vertices, 2,000 faces), (1000, 352))
     """
 
     mesh: Mesh

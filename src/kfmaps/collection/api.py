@@ -60,6 +60,13 @@ class Collection:
     parts : tuple of (str, str)
         Pairs in which one shape is a part of the other. Their maps, with −1 where there is no counterpart, stay as they
         were given or matched. They count neither for nor against other maps, and are on no path to a third shape.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> shapes, maps = {"a": pair.source, "b": pair.target}, {("a", "b"): pair.truth}
+    >>> kfmaps.match_collection(shapes, maps).pairs
+    (('a', 'b'),)
     """
 
     names: tuple[str, ...]
@@ -191,6 +198,13 @@ def match_collection(
     ------
     InvalidInput
         When a shape or map cannot be used, or there are fewer than two shapes.
+
+    Examples
+    --------
+    >>> shapes = {str(seed): kfmaps.datasets.two_poses(1500, seed).target for seed in (1, 2, 3)}
+    >>> collection = kfmaps.match_collection(shapes)
+    >>> collection.map("1", "3").shape
+    (1200,)
     """
     config = config or Config()
     progress = progress or (lambda _what, _done, _of: None)

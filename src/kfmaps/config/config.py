@@ -26,6 +26,14 @@ class Config:
     ``kernel`` is a record of :mod:`kfmaps.kernels` or any callable that returns (n, m) values for (n, d) and (m, d)
     arrays; ``refinement`` and ``registration`` may be callables too. Each of ``terms`` is called with both shapes and
     returns a term (:class:`kfmaps.matching.assemble.TermFactory`).
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> replace(kfmaps.Config(), kernel=kfmaps.Laplacian(gamma=2.0))
+    Config(kernel=Laplacian(gamma=2.0))
+    >>> kfmaps.Config.single_fit().search is None
+    True
     """
 
     basis: BasisConfig = setting(BasisConfig, "eigenfunctions of the functional map")
@@ -94,7 +102,7 @@ class Config:
 
         Each descriptor has a maximum of 1, as in section 7.1. With it the paper's Nyström errors are reproduced, but
         the γ = 500 of figure 6 is far too large: the paper does not give its scale. So γ comes from a grid search on
-        the first two people of FAUST, as in the paper (docs/experiments.md).
+        the first two people of FAUST, as in the paper (research/paper.md).
         """
         single = cls.single_fit()
         return replace(

@@ -17,7 +17,13 @@ Signature = Literal["wave", "heat", "none"]
 
 @settings_record
 class BasisConfig:
-    """The Laplacian and its eigenfunctions."""
+    """The Laplacian and its eigenfunctions.
+
+    Examples
+    --------
+    >>> kfmaps.Config(basis=kfmaps.BasisConfig(n_eigenfunctions=60)).basis
+    BasisConfig(n_eigenfunctions=60)
+    """
 
     n_eigenfunctions: int = setting(100, "size of the functional map on both sides", low=2)
     laplacian: Literal["robust", "cotangent"] = setting("robust", "the Laplacian; robust takes any triangles")
@@ -30,6 +36,11 @@ class DescriptorConfig:
     Energies are either spread evenly or, as in the framework of NO17 ("every-nth"), every n-th of a list with 200 for
     the signature and for each landmark. SHOT is the descriptor of Tombari et al. (2010). Normalisations: see
     :func:`kfmaps.descriptors.spectral.normalize`. ``extra`` are further ones (:class:`kfmaps.shape.Descriptor`).
+
+    Examples
+    --------
+    >>> kfmaps.DescriptorConfig(signature="heat", n_spectral=50)
+    DescriptorConfig(n_spectral=50, signature='heat')
     """
 
     n_spectral: int = setting(100, "spectral descriptors in all, shared out between signature and landmarks", low=1)
@@ -55,7 +66,13 @@ class DescriptorConfig:
 
 @settings_record
 class NystromConfig:
-    """The Nyström approximation of the kernel; see :func:`kfmaps.kernels.nystrom.nystrom`."""
+    """The Nyström approximation of the kernel; see :func:`kfmaps.kernels.nystrom.nystrom`.
+
+    Examples
+    --------
+    >>> kfmaps.NystromConfig(samples=200)
+    NystromConfig(samples=200)
+    """
 
     samples: int = setting(400, 'samples of both shapes together, half from each (the paper\'s "rank")', low=2)
     sampling: Sampling = setting("descriptor", "how samples are chosen")
@@ -64,7 +81,13 @@ class NystromConfig:
 
 @settings_record
 class Weights:
-    """Weights of the energy's terms; 0 leaves one out."""
+    """Weights of the energy's terms; 0 leaves one out.
+
+    Examples
+    --------
+    >>> kfmaps.Weights(laplacian=0.5)
+    Weights(laplacian=0.5)
+    """
 
     descriptors: float = setting(100.0, "weight of descriptor preservation", low=0)
     commutativity: float = setting(1.0, "weight of commutativity with multiplication by descriptors", low=0)
@@ -80,6 +103,11 @@ class Formulation:
 
     Inverse, adjoint, sparsity and transport weights are in units of the mean diagonal of the energy's operator.
     Orthogonal maps keep areas (:mod:`kfmaps.fmap.constraints`); losses are those of :mod:`kfmaps.fmap.losses`.
+
+    Examples
+    --------
+    >>> kfmaps.Formulation(constraint="orthogonal")
+    Formulation(constraint='orthogonal')
     """
 
     constraint: Constraint = setting("none", "constraint on the map")
@@ -130,6 +158,11 @@ class Search:
     ``orientation``: a "reversing" map is one to the mirror image. "auto" takes it only where a map that preserves
     orientation would deform the source too much and the reversing one does not. "either" takes the one that is clearly
     better: for bones, shoes or hands, which are not their own mirror images.
+
+    Examples
+    --------
+    >>> kfmaps.Search(orientation="either")
+    Search(orientation='either')
     """
 
     candidates: int = setting(6, "small kernel fits, each refined from three starts; 0: no kernel", low=0)
@@ -148,6 +181,11 @@ class Partial:
     ``part``: with "both" each shape has something that the other lacks; "auto" compares their boundaries and, where
     these differ, tries to place one on the other. What is stated is tried first, and what the boundaries suggest where
     that is not "sure". ``scale``: "auto" is "fixed" for two parts of about the same size.
+
+    Examples
+    --------
+    >>> kfmaps.Config(partial=kfmaps.Partial(part="target")).partial
+    Partial(part='target')
     """
 
     part: Literal["auto", "none", "source", "target", "both"] = setting(

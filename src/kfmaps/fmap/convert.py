@@ -40,6 +40,17 @@ def to_points(
     exact, n_probe
         As for :func:`kfmaps.fmap.nearest.nearest`: from about 10,000 points on each side the search is approximate
         unless ``exact`` says otherwise, and quicker with a smaller ``n_probe``.
+
+    Returns
+    -------
+    (n_t,) int64
+        A source vertex for each target vertex.
+
+    Examples
+    --------
+    >>> basis = kfmaps.laplace_basis(kfmaps.datasets.sphere(500), 50)
+    >>> np.array_equal(kfmaps.to_points(np.eye(50), basis, basis), np.arange(500))
+    True
     """
     dimensions = C.shape[0] + (0 if extra_columns is None else extra_columns[0].shape[1])
     single = is_approximate(target.mass.shape[0], source.mass.shape[0], dimensions, exact)
@@ -90,6 +101,16 @@ def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) ->
     ----------
     target_to_source : (n_t,) int
     source, target : Basis
+
+    Returns
+    -------
+    (k_t, k_s) array
+
+    Examples
+    --------
+    >>> basis = kfmaps.laplace_basis(kfmaps.datasets.sphere(500), 10)
+    >>> np.allclose(kfmaps.to_functional(np.arange(500), basis, basis), np.eye(10))
+    True
     """
     rows = check_point_map(target_to_source, source.functions.shape[0], target.functions.shape[0])
     return target.project(take(source.functions, rows))

@@ -149,6 +149,16 @@ def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
     errors : (q,) float
     auc_limit : float
         Where the curve ends.
+
+    Returns
+    -------
+    Evaluation
+        In the unit of the errors.
+
+    Examples
+    --------
+    >>> kfmaps.summarize_errors(np.array([0.0, 0.01, 0.02])).mean
+    0.01
     """
     errors = np.asarray(errors, dtype=float)
     check(errors, "errors", shape=(None,), finite=False)
@@ -168,7 +178,24 @@ def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
 
 
 def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
-    """Return the fraction of ``errors (q,)`` at or below each of ``thresholds (t,)``, (t,), from 0 to 1."""
+    """Return the fraction of errors that are at most as large as each threshold.
+
+    Parameters
+    ----------
+    errors : (q,) float
+    thresholds : (t,) float
+        In the unit of the errors.
+
+    Returns
+    -------
+    (t,) float64
+        From 0 to 1.
+
+    Examples
+    --------
+    >>> kfmaps.error_curve(np.array([0.0, 0.01, 0.2]), np.array([0.0, 0.1])).round(2)
+    array([0.33, 0.67])
+    """
     ordered = np.sort(np.asarray(errors, dtype=float))
     return np.searchsorted(ordered, np.asarray(thresholds, dtype=float), side="right") / len(ordered)
 
@@ -183,6 +210,17 @@ def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     target_to_source : (n_t,) int
         −1, no counterpart, reaches none.
     source : Mesh
+
+    Returns
+    -------
+    float
+        From 0 to 1.
+
+    Examples
+    --------
+    >>> mesh = kfmaps.datasets.sphere(500)
+    >>> kfmaps.coverage(np.arange(500), mesh)
+    1.0
     """
     check_is_mesh(source, "source")
     cleaned = clean_mesh(source)

@@ -31,6 +31,13 @@ class PointMap:
         The source face that it lies on.
     weights : (n_t, 3) float64
         Its barycentric coordinates there: not negative, sum 1.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> exact = kfmaps.PointMap(pair.truth_faces, pair.truth_weights)
+    >>> bool(kfmaps.geodesic_errors(pair.source, exact, pair.truth).mean() < 0.02)
+    True
     """
 
     faces: np.ndarray

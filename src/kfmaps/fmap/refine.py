@@ -51,6 +51,11 @@ class ICP:
 
     It needs a square map and stops early when no point changes (Ovsjanikov et al. 2012). Where the images are too few
     to determine the map, the matrix is a partial isometry.
+
+    Examples
+    --------
+    >>> kfmaps.Config(refinement=kfmaps.ICP(steps=10)).refinement
+    ICP(steps=10)
     """
 
     steps: int = setting(5, "steps of ICP", low=1)

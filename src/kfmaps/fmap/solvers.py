@@ -46,6 +46,11 @@ class CG:
     ------
     InvalidInput
         When neither criterion could ever stop it.
+
+    Examples
+    --------
+    >>> kfmaps.Config(solver=kfmaps.CG(max_iter=10)).solver
+    CG(max_iter=10)
     """
 
     rtol: float = setting(1e-6, "relative residual at which CG stops", low=0)
@@ -59,7 +64,13 @@ class CG:
 
 @settings_record
 class Direct:
-    """The dense system, column by column, solved by least squares: for tests and small bases."""
+    """The dense system, column by column, solved by least squares: for tests and small bases.
+
+    Examples
+    --------
+    >>> kfmaps.Config(solver=kfmaps.Direct()).solver
+    Direct()
+    """
 
     limit: int = setting(4000, "most unknowns that the dense solver takes", low=1)
 

@@ -51,6 +51,11 @@ class ZoomOut:
     ``descriptor_weight`` is the mean squared difference of the descriptors of two random points, beside which that of k
     functions is about 2 k. It has an effect only where :meth:`__call__` is given descriptors; 0 is ZoomOut as
     published.
+
+    Examples
+    --------
+    >>> kfmaps.Config(refinement=kfmaps.ZoomOut(start=30, stop=120)).refinement
+    ZoomOut(start=30, stop=120)
     """
 
     start: int = setting(20, "first size of ZoomOut", low=2)

@@ -35,6 +35,12 @@ class Basis:
         One eigenfunction a column: ``functionsᵀ diag(mass) functions = I``.
     mass : (n,)
         Area around each vertex (lumped). Zero at a vertex that no face uses, and at all but the first of welded ones.
+
+    Examples
+    --------
+    >>> basis = kfmaps.laplace_basis(kfmaps.datasets.sphere(500), 10)
+    >>> np.allclose(basis.project(basis.functions), np.eye(10))  # orthonormal
+    True
     """
 
     eigenvalues: Array
@@ -205,6 +211,12 @@ def laplace_basis(
         unknown.
     NotConverged
         When a residual is above the tolerance; see :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
+
+    Examples
+    --------
+    >>> basis = kfmaps.laplace_basis(kfmaps.datasets.sphere(2000), 5)
+    >>> basis.eigenvalues.round(1) + 0.0  # of the unit sphere: 0, 2, 2, 2, 6, ...
+    array([0., 2., 2., 2., 6.])
     """
     check_is_mesh(mesh)
     cleaned = clean_mesh(mesh)

@@ -57,6 +57,12 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike) -> np.ndarray:
     ------
     InvalidInput
         On a vertex number out of range.
+
+    Examples
+    --------
+    >>> mesh = kfmaps.datasets.sphere(500)
+    >>> bool(abs(kfmaps.geodesic_distances(mesh, [0]).max() - np.pi) < 0.1)  # half of a great circle
+    True
     """
     check_is_mesh(mesh)
     sources = _indices(sources, len(mesh.vertices), "sources")

@@ -22,6 +22,11 @@ class Mesh:
         Positions, in any unit.
     faces : (f, 3) int64
         0-based vertex numbers, counter-clockwise seen from outside; by default none, ``(0, 3)``: a point cloud.
+
+    Examples
+    --------
+    >>> kfmaps.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    Mesh(3 vertices, 1 faces)
     """
 
     vertices: np.ndarray

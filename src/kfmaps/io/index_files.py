@@ -53,6 +53,13 @@ def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.nda
     ------
     InvalidInput
         On a file that is missing, empty, or has a line of anything else.
+
+    Examples
+    --------
+    >>> _ = Path("pairs.txt").write_text("412 1034  # head\\n2790 88\\n")
+    >>> kfmaps.read_landmarks("pairs.txt")
+    array([[ 412, 1034],
+           [2790,   88]])
     """
     return _read_numbers(path, 2, "two whole numbers a line, source and target", one_based)
 

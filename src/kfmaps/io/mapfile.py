@@ -50,6 +50,10 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
     ------
     InvalidInput
         On an unknown extension, an existing file, and anything but a match.
+
+    Examples
+    --------
+    >>> kfmaps.save_map("identity.txt", kfmaps.Match(np.arange(5)))
     """
     if not isinstance(match, Match):
         raise refuse("map", "a Match", type(match).__name__, "give what kfmaps.match returned")
@@ -93,6 +97,12 @@ def load_map(path: str | Path) -> Match:
     InvalidInput
         On an unknown extension, a file that is missing, cut short or not of its format, contents that are no map, and
         files of older versions.
+
+    Examples
+    --------
+    >>> kfmaps.save_map("first.txt", kfmaps.Match(np.array([2, 0, 1])), force=True)
+    >>> kfmaps.load_map("first.txt").target_to_source
+    array([2, 0, 1])
     """
     name, suffix = str(path), check_format(path)
     if suffix in (".txt", ".vts"):

@@ -63,6 +63,11 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     cloud : bool
         Whether a file without faces is read as a point cloud; else it is refused.
 
+    Returns
+    -------
+    Mesh
+        In the unit of the file.
+
     Raises
     ------
     InvalidInput
@@ -75,6 +80,12 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
         About vertices without a position (NaN), at most one in a thousand, which are put between their neighbours.
         About several components, boundaries, non-manifold edges, inconsistent orientation, duplicated or
         unreferenced vertices, and faces without area. All of them are kept.
+
+    Examples
+    --------
+    >>> kfmaps.write_mesh("sphere.ply", kfmaps.datasets.sphere(500), force=True)
+    >>> kfmaps.read_mesh("sphere.ply")
+    Mesh(500 vertices, 996 faces)
     """
     return read_mesh_file(path, cloud=cloud).mesh
 
@@ -162,6 +173,10 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
     ------
     InvalidInput
         On an unknown extension, colours that do not fit, and as :func:`atomic_output`.
+
+    Examples
+    --------
+    >>> kfmaps.write_mesh("torus.obj", kfmaps.datasets.torus(500))
     """
     check_is_mesh(mesh)
     writer = _WRITERS[check_suffix(path, _WRITERS, "output", "choose one of these")]

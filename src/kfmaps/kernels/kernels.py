@@ -57,7 +57,13 @@ def _ones(X: Array) -> Array:
 
 @dataclass(frozen=True)
 class Linear:
-    """``x·y``. With it the method is that of Nogneng and Ovsjanikov (2017)."""
+    """``x·y``. With it the method is that of Nogneng and Ovsjanikov (2017).
+
+    Examples
+    --------
+    >>> kfmaps.Linear()(np.array([[1.0, 2.0]]), np.array([[3.0, 4.0]]))
+    array([[11.]])
+    """
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return X @ Y.T
@@ -68,7 +74,13 @@ class Linear:
 
 @settings_record
 class Polynomial:
-    """``(x·y + offset)^degree``: all products of up to ``degree`` descriptors."""
+    """``(x·y + offset)^degree``: all products of up to ``degree`` descriptors.
+
+    Examples
+    --------
+    >>> kfmaps.Polynomial(degree=2, offset=1.0)(np.array([[1.0, 2.0]]), np.array([[3.0, 4.0]]))
+    array([[144.]])
+    """
 
     degree: int = setting(2, "degree of the polynomial kernel", low=1)
     offset: float = setting(1.0, "what is added to x·y", low=0)
@@ -82,7 +94,13 @@ class Polynomial:
 
 @settings_record
 class Gaussian:
-    """``exp(-γ ‖x − y‖²)``; ``gamma=None`` is chosen from the descriptors by :func:`resolve_kernel`."""
+    """``exp(-γ ‖x − y‖²)``; ``gamma=None`` is chosen from the descriptors by :func:`resolve_kernel`.
+
+    Examples
+    --------
+    >>> kfmaps.Gaussian(gamma=0.5)(np.array([[0.0]]), np.array([[0.0], [2.0]])).round(3)
+    array([[1.   , 0.135]])
+    """
 
     gamma: float | None = setting(None, "γ, per squared unit of the descriptors", above=0, none="automatic")
 
@@ -95,7 +113,13 @@ class Gaussian:
 
 @settings_record
 class Laplacian:
-    """``exp(-γ ‖x − y‖)``, a sharper peak and longer tail than the Gaussian; ``gamma=None`` is automatic."""
+    """``exp(-γ ‖x − y‖)``, a sharper peak and longer tail than the Gaussian; ``gamma=None`` is automatic.
+
+    Examples
+    --------
+    >>> kfmaps.Laplacian(gamma=0.5)(np.array([[0.0]]), np.array([[0.0], [2.0]])).round(3)
+    array([[1.   , 0.368]])
+    """
 
     gamma: float | None = setting(None, "γ, per unit of the descriptors", above=0, none="automatic")
 
@@ -111,6 +135,11 @@ class Tanh:
     """``tanh(scale·x·y + offset)``, the nonlinearity of neural networks.
 
     Not positive definite in general: the Nyström features keep its positive part and say so.
+
+    Examples
+    --------
+    >>> kfmaps.Tanh(scale=0.5)(np.array([[1.0]]), np.array([[2.0]])).round(3)
+    array([[0.762]])
     """
 
     scale: float = setting(1.0, "factor of x·y", above=0)
@@ -126,7 +155,18 @@ class Tanh:
 
 @dataclass(frozen=True)
 class Sum:
-    """``a(x, y) + b(x, y)``: the feature vectors side by side."""
+    """``a(x, y) + b(x, y)``: the feature vectors side by side.
+
+    Attributes
+    ----------
+    a, b : KernelLike
+        The two kernels, records or callables.
+
+    Examples
+    --------
+    >>> kfmaps.Sum(kfmaps.Linear(), kfmaps.Polynomial())(np.array([[1.0]]), np.array([[2.0]]))
+    array([[11.]])
+    """
 
     a: KernelLike = field(metadata={"help": "first kernel"})
     b: KernelLike = field(metadata={"help": "second kernel"})
@@ -140,7 +180,18 @@ class Sum:
 
 @dataclass(frozen=True)
 class Product:
-    """``a(x, y) · b(x, y)``: all products of one feature of each."""
+    """``a(x, y) · b(x, y)``: all products of one feature of each.
+
+    Attributes
+    ----------
+    a, b : KernelLike
+        The two kernels, records or callables.
+
+    Examples
+    --------
+    >>> kfmaps.Product(kfmaps.Linear(), kfmaps.Polynomial())(np.array([[1.0]]), np.array([[2.0]]))
+    array([[18.]])
+    """
 
     a: KernelLike = field(metadata={"help": "first kernel"})
     b: KernelLike = field(metadata={"help": "second kernel"})

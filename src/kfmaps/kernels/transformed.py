@@ -18,6 +18,12 @@ class Metric:
 
     Descriptors of other landmarks are other descriptors: their number is checked by
     :func:`kfmaps.matching.features.resolve_kernel_width`.
+
+    Examples
+    --------
+    >>> metric = kfmaps.Metric(kfmaps.Linear(), ((1.0, 0.0), (0.0, 2.0)))
+    >>> metric(np.array([[1.0, 1.0]]), np.array([[1.0, 1.0]]))
+    array([[5.]])
     """
 
     kernel: KernelLike = setting(Gaussian, "the kernel inside")

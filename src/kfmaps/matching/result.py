@@ -91,6 +91,14 @@ class Match:
     fit : MatchFit
     source_file, target_file : ShapeFile
         Where the shapes came from.
+
+    Examples
+    --------
+    >>> pair = kfmaps.datasets.two_poses(1500)
+    >>> result = kfmaps.match(pair.source, pair.target)
+    >>> on_target = result.transfer(result.source.vertices)  # (n_t, 3)
+    >>> len(result.alternatives) == len(result.score.scores) - 1
+    True
     """
 
     target_to_source: np.ndarray

@@ -73,6 +73,11 @@ class NonRigid:
 
     Details smaller than the root of ``stiffness`` follow the target at the first level. Smoothing of rotations, unless
     it is 0, keeps limbs from being twisted. See also :mod:`kfmaps.registration.local_scaling`.
+
+    Examples
+    --------
+    >>> kfmaps.Config(registration=kfmaps.NonRigid(steps=3)).registration
+    NonRigid(steps=3)
     """
 
     stiffness: float = setting(2e-4, "stiffness of the first level, in units of area", above=0)

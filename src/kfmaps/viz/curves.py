@@ -84,7 +84,7 @@ def plot_curve(errors: Mapping[str, ArrayLike], *, limit: float = 0.25, title: s
 
     Examples
     --------
-    >>> figure = plot_curve({"ours": [0.0, 0.01, 0.02], "theirs": [0.0, 0.05, 0.2]})
+    >>> figure = kfmaps.plot_curve({"ours": [0.0, 0.01, 0.02], "theirs": [0.0, 0.05, 0.2]})
     """
     thresholds = np.linspace(0.0, limit, _N_THRESHOLDS)
     curves = []
