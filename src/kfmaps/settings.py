@@ -38,8 +38,7 @@ def read_learned(path: str | Path) -> JsonObject:
     except OSError as error:
         raise refuse(f"{path}", _EXPECTED, error.strerror or str(error), _REMEDY) from error
     except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError) as error:
-        got = (str(error) or type(error).__name__).splitlines()[0][:120]
-        raise refuse(f"{path}", _EXPECTED, got, _REMEDY) from error
+        raise refuse(f"{path}", _EXPECTED, "something else", _REMEDY) from error
     if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("settings"), str):
         raise refuse(f"{path}", _EXPECTED, "another content or version", _REMEDY)
     return content
@@ -61,12 +60,14 @@ def preset(name: str) -> Config:
 def read_settings(path: str | Path, base: Config | None = None) -> Config:
     """Return ``base``, by default ``Config()``, with settings of a TOML file or a ``.pt`` file of ``kfmaps learn``."""
     try:
-        if Path(path).is_char_device():  # one like /dev/zero never ends
-            raise refuse(f"--config {path}", "a settings file", "a device", "check the path")
+        if Path(path).is_dir() or Path(path).is_char_device():  # one like /dev/zero never ends
+            got = "a folder" if Path(path).is_dir() else "a device"
+            raise refuse(f"--config {path}", "a settings file", got, "check the path")
         learned = Path(path).suffix == SUFFIX
         text = read_learned(path)["settings"] if learned else Path(path).read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         got = getattr(error, "strerror", None) or "text that is not UTF-8"
+        got = "nothing there" if isinstance(error, FileNotFoundError) else got
         raise refuse(f"--config {path}", "a settings file", got, "check the path") from error
     try:
         values = tomllib.loads(text)
