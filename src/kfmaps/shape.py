@@ -31,10 +31,6 @@ EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
 MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
 _BALL_SUPPORT = 550  # most support points of SHOT in one ball on average
-_NO_SURFACE = (
-    "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right cannot be "
-    "told: give three landmarks, or a mesh made from the points"
-)
 _NORMAL_WEIGHT = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
 
@@ -161,7 +157,11 @@ def prepare(
     if is_cloud and config.descriptors.shot:
         surface = surface_of_cloud(unit.vertices)
         if surface is None:
-            warnings.warn(f"{name}: {_NO_SURFACE}", KfmapsWarning, stacklevel=2)
+            text = (
+                "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right"
+            )
+            remedy = "cannot be told apart: give three landmarks, or a mesh made from the points"
+            warnings.warn(f"{name}: {text} {remedy}", KfmapsWarning, stacklevel=2)
         else:
             mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
             cleaned = clean_mesh(mesh, specks=True)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
 from kfmaps._progress import StageTimer
 from kfmaps.config import Config
-from kfmaps.fmap.confidence import build_local_distortion
+from kfmaps.fmap.confidence import LocalDistortion, build_local_distortion
 from kfmaps.fmap.precise import PointMap, nearest_vertices
-from kfmaps.geometry.mesh import vertex_areas
+from kfmaps.geometry.mesh import Mesh, vertex_areas
+from kfmaps.registration.nonrigid_icp import Registration
 from kfmaps.registration.torn_patches import rejoin_torn_patches
 from kfmaps.shape import Shape
 
@@ -84,43 +86,74 @@ def register_map(
     if registration is None or config.refinement is None or not have_faces:
         return RegisteredMap(points, None, None, confidence)
     scales = bool(getattr(registration, "local_scaling", 0))
-    use_landmarks = scales or not _are_less_exact(landmarks, points, source.mesh.vertices)
-    landmarks = landmarks if use_landmarks else None
-    areas = vertex_areas(target.mesh)
-    areas = areas / areas.sum()
-
-    def register(pinned: np.ndarray | None, points: np.ndarray = points) -> tuple[RegisteredMap, RegistrationReport]:
-        stage = "non-rigid fit" if pinned is None else "non-rigid fit, pinned"
-        with clock(stage):
-            progress = partial(clock.report, stage)
-            result = registration(source.mesh, target.mesh, points, progress, landmarks=landmarks, pinned=pinned)
-        before, was_pinned = float(confidence.mean()), pinned is not None
-        report = RegistrationReport(result.gap, result.bending, before, pinned=was_pinned, landmarks_held=use_landmarks)
-        if result.gap > _MAX_GAP:
-            return RegisteredMap(points, None, None, confidence, report), report
-        precise_map = PointMap(result.faces, result.weights)
-        vertices = nearest_vertices(precise_map, source.mesh)
-        with clock("confidence after the fit"):
-            after = distortion(vertices)
-        worsened = float(areas[confidence - after > _MIN_CHANGE].sum())
-        improved = float(areas[after - confidence > _MIN_CHANGE].sum())
-        accepted = worsened <= _MAX_WORSENED_AREA or improved >= 0.5 * worsened
-        report = replace(report, after=float(after.mean()), worsened=worsened, improved=improved)
-        report = replace(report, accepted=accepted, reason=None if accepted else "harm")
-        return RegisteredMap(vertices, precise_map, result.vertices, after, report), report
-
-    first, first_report = best, report = register(None)
+    held = scales or not _are_less_exact(landmarks, points, source.mesh.vertices)
+    landmarks = landmarks if held else None
+    task = _RegistrationTask(source.mesh, target.mesh, registration, clock, landmarks, held, distortion, confidence)
+    best, report = first, first_report = task.register(points)
     if first_report.worsened > _MAX_WORSENED_AREA and not (scales and first_report.accepted):
         pinned = np.clip(2 * (confidence - first.local_confidence) / _MIN_CHANGE - 1, 0.0, 1.0)
-        second, second_report = register(pinned)
+        second, second_report = task.register(points, pinned)
         if second_report.accepted or not first_report.accepted:
             best, report = second, second_report
     best = best if report.accepted else RegisteredMap(points, None, None, confidence, report)
     rejoined = rejoin_torn_patches(best.target_to_source, source.mesh, target.mesh)
     if np.array_equal(rejoined, best.target_to_source):
         return best
-    last, report = register(None, rejoined)
-    return last if report.accepted and last.local_confidence @ areas > best.local_confidence @ areas else best
+    last, report = task.register(rejoined)
+    is_better = last.local_confidence @ task.areas > best.local_confidence @ task.areas
+    return last if report.accepted and is_better else best
+
+
+@dataclass(frozen=True, eq=False)
+class _RegistrationTask:
+    """A registration that may be made from several maps, and what it is judged by."""
+
+    source: Mesh
+    target: Mesh
+    registration: Callable[..., Registration]
+    clock: StageTimer
+    landmarks: np.ndarray | None  # (l, 2): those that pull
+    landmarks_held: bool
+    distortion: LocalDistortion
+    confidence: np.ndarray  # (n_t,): local confidence of the initial map
+
+    @cached_property
+    def areas(self) -> np.ndarray:
+        """Shares of the target's area, (n_t,)."""
+        areas = vertex_areas(self.target)
+        return areas / areas.sum()
+
+    def register(
+        self, points: np.ndarray, pinned: np.ndarray | None = None
+    ) -> tuple[RegisteredMap, RegistrationReport]:
+        """Return the registration that begins with a map ``points (n_t,)``, and whether it is accepted.
+
+        ``pinned (n_t,)``: how strongly each target vertex is pinned to its image.
+        """
+        stage, confidence = "non-rigid fit" if pinned is None else "non-rigid fit, pinned", self.confidence
+        with self.clock(stage):
+            progress = partial(self.clock.report, stage)
+            options = {"landmarks": self.landmarks, "pinned": pinned}
+            result = self.registration(self.source, self.target, points, progress, **options)
+        report = RegistrationReport(
+            result.gap,
+            result.bending,
+            before=float(confidence.mean()),
+            pinned=pinned is not None,
+            landmarks_held=self.landmarks_held,
+        )
+        if result.gap > _MAX_GAP:
+            return RegisteredMap(points, None, None, confidence, report), report
+        precise_map = PointMap(result.faces, result.weights)
+        vertices = nearest_vertices(precise_map, self.source)
+        with self.clock("confidence after the fit"):
+            after = self.distortion(vertices)
+        worsened = float(self.areas[confidence - after > _MIN_CHANGE].sum())
+        improved = float(self.areas[after - confidence > _MIN_CHANGE].sum())
+        accepted = worsened <= _MAX_WORSENED_AREA or improved >= 0.5 * worsened
+        report = replace(report, after=float(after.mean()), worsened=worsened, improved=improved)
+        report = replace(report, accepted=accepted, reason=None if accepted else "harm")
+        return RegisteredMap(vertices, precise_map, result.vertices, after, report), report
 
 
 def _are_less_exact(landmarks: np.ndarray | None, points: np.ndarray, vertices: np.ndarray) -> bool:
