@@ -158,10 +158,10 @@ def prepare(
         surface = surface_of_cloud(unit.vertices)
         if surface is None:
             text = (
-                "no closed surface was found through the points, which are too noisy, open or have gaps. Left and right"
+                "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
+                "right cannot be told apart: give three landmarks, or a mesh made from the points"
             )
-            remedy = "cannot be told apart: give three landmarks, or a mesh made from the points"
-            warnings.warn(f"{name}: {text} {remedy}", KfmapsWarning, stacklevel=2)
+            warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=2)
         else:
             mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
             cleaned = clean_mesh(mesh, specks=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.registration.accept import RegistrationReport
 
+_UNKNOWN: Any = None
+"""Value of a field that only a loaded match lacks; of open type, so that a fresh one needs no checks."""
 ONE_FIT = "one fit"
 """``score.initialization`` of a map that was fitted once, without a search."""
 
@@ -125,7 +127,7 @@ class MatchFit:
         Trust in each landmark or descriptor, 0 to 1, under a robust loss.
     """
 
-    raw_functional_map: np.ndarray = cast(Any, None)  # only a loaded match lacks it; a fresh one needs no checks
+    raw_functional_map: np.ndarray = _UNKNOWN
     raw_target_to_source: np.ndarray | None = None
     size: int | None = None
     status: str | None = None
