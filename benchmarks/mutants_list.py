@@ -929,7 +929,7 @@ MUTANTS = tuple(
             "if False:\n            distances[missing]",
             "test_geodesics -k forgotten",
         ),
-        # landmarks between shapes of other proportions, and what they say of a map
+        # landmarks between shapes of different proportions, and what they say of a map
         (
             "np.minimum(errors, numbers.max_landmark_error).mean()",
             "errors.mean()",

@@ -1,4 +1,4 @@
-"""Cats with dogs and gorillas with women, with and without what is done for bodies of other proportions.
+"""Cats with dogs and gorillas with women, with and without what is done for bodies of different proportions.
 
     python benchmarks/unlike.py --data DIR [--half choice] [--pairs 3] [--seeds 0,1]
 

@@ -1,4 +1,4 @@
-"""What landmarks do between shapes of other proportions, how far they back a map, and which are named as wrong."""
+"""What landmarks do between shapes of different proportions, how far they back a map, and which are named as wrong."""
 
 from __future__ import annotations
 

@@ -150,7 +150,7 @@ def test_a_gap_speaks_first(pair: datasets.ExamplePair) -> None:
 def test_landmarks_that_are_less_exact_than_the_map_do_not_hold(
     pair: datasets.ExamplePair, off: float, far: int, count: int, scaling: float, hold: bool
 ) -> None:
-    """Most of them count; of a few, or between shapes of other proportions, nothing is told."""
+    """Most of them count; of a few, or between shapes of different proportions, nothing is told."""
     source, rows = unit_area(pair.source).vertices, np.arange(0, 900, 900 // count)[:count]
     landmarks = np.stack([pair.truth[rows], rows], axis=1)
     away = np.linalg.norm(source[landmarks[:far, 0], None] - source, axis=2)
