@@ -2,8 +2,8 @@
 A first map, with landmarks
 ===========================
 
-Two meshes of one creature in two poses, made independently of each other, and six vertices that someone has marked on
-both. What comes back is a vertex of the source for each vertex of the target.
+Two meshes of one creature in two poses were made independently, and someone has marked six vertices on both. The
+result is a vertex of the source for each vertex of the target.
 """
 
 from dataclasses import replace
@@ -16,16 +16,16 @@ pair = kfmaps.datasets.two_poses(vertices=2000)
 print(f"source: {len(pair.source.vertices)} vertices, target: {len(pair.target.vertices)} vertices")
 
 # %%
-# Landmarks are rows "source vertex, target vertex", counted from 0. Here the known truth stands in for a person who
-# clicks on six places far from each other (``kfmaps landmarks A B`` opens a page for that).
+# Landmarks are rows "source vertex, target vertex", counted from 0. Here the known truth replaces a person who clicks
+# on six places far from each other (``kfmaps landmarks A B`` opens a page for that).
 
 marked = farthest_descriptors(pair.target.vertices, 6)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 print(landmarks)
 
 # %%
-# The settings below are smaller than the recommended ones, as these meshes are. On meshes of 5,000 vertices and more
-# leave ``config`` out.
+# These meshes are small, so the settings below are smaller than the recommended ones. With meshes of 5,000 vertices
+# and more, leave ``config`` out.
 
 config = replace(
     kfmaps.Config.single_fit(),
@@ -51,8 +51,8 @@ raw_errors = kfmaps.geodesic_errors(pair.source, result.fit.raw_target_to_source
 figure = match_figure(pair.source, pair.target, result.target_to_source, errors=errors)
 
 # %%
-# The refinement (ZoomOut) has improved on the fit. A typical edge of the source is 0.025 long in the same unit, so what
-# is left is half an edge.
+# The refinement (ZoomOut) has improved the map. A typical edge of the source is 0.025 long in the same unit, so the
+# remaining error is half an edge.
 
 mean, raw_mean = errors.mean(), raw_errors.mean()
 print(f"mean error: {100 * raw_mean:.2f} before refinement, {100 * mean:.2f} after (times 100)")

@@ -2,9 +2,9 @@
 Kernels compared, with ten descriptors
 ======================================
 
-A kernel stands for more descriptors than were given: the polynomial kernel for their products, the Gaussian kernel for
-infinitely many functions of them. That matters most when there are few, and when the two shapes are not bent copies of
-each other.
+A kernel represents more descriptors than were given: the polynomial kernel their products, the Gaussian kernel
+infinitely many functions of them. That matters most if there are few, and if the two shapes are not bent copies of each
+other.
 """
 
 from dataclasses import replace
@@ -27,8 +27,8 @@ base = replace(
 )
 
 # %%
-# What depends on one shape alone is done once; every kernel then uses it. There is no refinement, so that what is
-# compared is the fit itself.
+# What depends on one shape alone is computed once, for all kernels. There is no refinement, so that only the fits are
+# compared.
 
 source, target = kfmaps.prepare(pair.source, base), kfmaps.prepare(pair.target, base)
 kernels = {
@@ -48,7 +48,7 @@ for name, kernel in kernels.items():
 # %%
 # With the linear kernel the features are the ten descriptors themselves. The quadratic kernel has all their products
 # of up to two, 66 in all: Nyström from 200 samples finds exactly that many. For the Gaussian and the Laplacian kernel
-# γ was left to the package, which takes it from the distances between descriptors.
+# γ is chosen automatically from the distances between descriptors.
 
 figure, ax = plt.subplots(figsize=(6, 2.4), layout="constrained")
 ax.barh(list(means), [100 * value for value in means.values()], color="#0072B2")

@@ -2,9 +2,8 @@
 A kernel of your own
 ====================
 
-Any callable that gives ``(n, m)`` values for ``(n, d)`` and ``(m, d)`` arrays is a kernel, so those of scikit-learn can
-be handed in as they are. It should be positive definite; of one that is not, the negative part is left out, with a
-warning.
+Any callable that returns ``(n, m)`` values for ``(n, d)`` and ``(m, d)`` arrays is a kernel, so those of scikit-learn
+can be passed as they are. A kernel should be positive definite; otherwise its negative part is dropped, with a warning.
 """
 
 from dataclasses import replace
@@ -35,7 +34,7 @@ def matched(kernel):
 
 
 # %%
-# First a check: scikit-learn's Gaussian kernel gives the map of the package's own. Its γ has to be stated, as the
+# First a check: scikit-learn's Gaussian kernel gives the same map as the package's own. Its γ must be given, since the
 # package cannot know how a foreign kernel depends on it.
 
 

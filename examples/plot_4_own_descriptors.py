@@ -2,9 +2,9 @@
 Descriptors of your own
 =======================
 
-``descriptors=(D_s, D_t)`` takes two arrays with a row per vertex and the same columns on both shapes: something
-measured, something learned, anything. They are used beside those that the configuration names, or alone. Here they are
-the distances along the surface to four landmarks.
+``descriptors=(D_s, D_t)`` takes two arrays with one row per vertex and the same columns on both shapes, measured or
+learned. They are used in addition to those of the configuration, or alone. Here they are the distances along the
+surface to four landmarks.
 """
 
 from dataclasses import replace
@@ -22,8 +22,7 @@ landmarks = np.stack([pair.truth[marked], marked], axis=1)
 
 # %%
 # Descriptors have to mean the same on both shapes. Distances are divided by the square root of each shape's area, so
-# that units do not matter. A bump around each landmark says "near here" in a range that the distance itself does not
-# single out.
+# that units do not matter. A bump around each landmark emphasises points near it.
 
 
 def described(mesh, vertices):
@@ -35,8 +34,7 @@ D_s, D_t = described(pair.source, landmarks[:, 0]), described(pair.target, landm
 print("shapes:", D_s.shape, D_t.shape)
 
 # %%
-# Used alone: no signature, no map of landmarks. No ``landmarks`` are passed either; the descriptors hold what they
-# say.
+# Used alone, without signature and landmark maps. No ``landmarks`` are passed either; the descriptors contain them.
 
 alone = replace(
     kfmaps.Config.single_fit(),
@@ -51,11 +49,11 @@ errors = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth
 figure = match_figure(pair.source, pair.target, result.target_to_source, errors=errors)
 
 # %%
-# Used beside the wave kernel signature.
+# Used together with the wave kernel signature.
 
 both = replace(alone, descriptors=kfmaps.DescriptorConfig(n_spectral=50, n_eigenfunctions=80, shot=False))
 beside = kfmaps.match(source, target, both, descriptors=(D_s, D_t))
 errors_beside = kfmaps.geodesic_errors(pair.source, beside.target_to_source, pair.truth)
 
-print(f"mean error x 100: {100 * errors.mean():.2f} alone, {100 * errors_beside.mean():.2f} beside the signature")
+print(f"mean error x 100: {100 * errors.mean():.2f} alone, {100 * errors_beside.mean():.2f} with the signature")
 assert errors.mean() < 0.02

@@ -2,8 +2,8 @@
 Labels and functions carried over
 =================================
 
-A point map carries anything that lives on vertices, by looking it up. A functional map carries smooth functions
-without any point map: a product with a small matrix.
+A point map carries any data at vertices, by looking it up. A functional map carries smooth functions without a point
+map, by a product with a small matrix.
 """
 
 from dataclasses import replace
@@ -44,8 +44,8 @@ agreement = float((parts_on_target == parts[pair.truth]).mean())
 print(f"labels that agree with the truth: {100 * agreement:.1f} %")
 
 # %%
-# A function: the height on the source. By the functional map: coefficients, product, function. Few coefficients make it
-# smooth, so it is compared on the whole, by the part of the variance that it explains.
+# A function: the height on the source, carried by the functional map. Few coefficients make it smooth, so the result is
+# judged by the share of the variance that it explains.
 
 k_t, k_s = result.functional_map.shape
 height = pair.source.vertices[:, 1:2]

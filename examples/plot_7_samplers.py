@@ -2,8 +2,8 @@
 How samples for Nyström are chosen
 ==================================
 
-The kernel between all vertices of two shapes is a matrix of millions of entries. Nyström's method replaces it by one of
-low rank, made from its values at some samples. How good that is depends on the samples.
+The kernel between all vertices of two shapes is a matrix with millions of entries. Nyström's method replaces it by one
+of low rank, from its values at some samples. The error depends on the samples.
 """
 
 import matplotlib.pyplot as plt
@@ -22,7 +22,7 @@ bases = [kfmaps.laplace_basis(mesh, 80) for mesh in meshes]
 
 # %%
 # The descriptors: 50 energies of the wave kernel signature, the same energies on both shapes, each with a maximum of 1.
-# The kernel of all vertices of both shapes is small enough here to be held whole.
+# Here the kernel of all vertices of both shapes is small enough to be stored.
 
 energies, sigma = wave_energies(50, *bases)
 signatures = [wave_signature(basis, energies, sigma) for basis in bases]
@@ -32,7 +32,7 @@ kernel = kfmaps.Gaussian(gamma=1.0)
 K = kernel(D, D)
 
 # %%
-# No matrix of rank r is closer to K than the sum of its first r eigenvectors. That is the bound.
+# No matrix of rank r is closer to K than the one with its first r eigenpairs. That is the bound.
 
 eigenvalues = np.sort(np.abs(np.linalg.eigvalsh(K)))[::-1]
 bound = np.sqrt(np.cumsum(eigenvalues[::-1] ** 2)[::-1]) / np.linalg.norm(K)
@@ -75,8 +75,8 @@ ax.spines[["top", "right"]].set_visible(False)
 figure.legend(loc="outside lower center", ncols=2, frameon=False)
 
 # %%
-# Nothing is better than the bound. With few samples random ones do best: they fall where most vertices are, and the
-# others go to the extremes first. With many it is the other way round, by a factor of tens.
+# Nothing is better than the bound. With few samples random ones are best: they lie where most vertices are, while the
+# others begin with the extremes. With many samples the others are better by a factor of tens.
 
 assert all(np.all(values >= 0.999 * bound[ranks]) for values in found.values())
 assert found["farthest, between descriptors"][-1] < 0.1 * found["uniform"][-1]

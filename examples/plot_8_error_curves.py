@@ -2,8 +2,8 @@
 Error curves of three methods
 =============================
 
-The Princeton protocol: which part of the points lies within an error of the truth. The earlier methods are the same
-code with a linear kernel and other weights, so they need only another configuration.
+The Princeton protocol shows which share of the points lies within an error of the truth. The earlier methods are the
+same code with a linear kernel and other weights, so they only need another configuration.
 """
 
 from dataclasses import replace
@@ -36,7 +36,8 @@ methods = {
 }
 
 # %%
-# Preparing depends on the sizes and the Laplacian alone, which all three share. Ten descriptors, no refinement.
+# Preparation depends only on the sizes and the Laplacian, which all three share. There are ten descriptors and no
+# refinement.
 
 first = methods["kernel, recommended"]
 source, target = kfmaps.prepare(pair.source, first), kfmaps.prepare(pair.target, first)
@@ -52,8 +53,8 @@ for name, config in methods.items():
 figure = curves_figure(curves)
 
 # %%
-# One easy pair decides nothing between the first two; the experiments measure them on a hundred pairs. With ten
-# descriptors and nothing else, the method of 2012 does not determine a map.
+# One easy pair does not decide between the first two; the experiments compare them on a hundred pairs. Ten descriptors
+# alone do not determine a map by the method of 2012.
 
 auc = {name: summary.auc for name, summary in summaries.items()}
 assert auc["kernel, recommended"] > auc["Nogneng and Ovsjanikov 2017"] > auc["Ovsjanikov et al. 2012"]

@@ -2,9 +2,9 @@
 A kernel learned from pairs
 ===========================
 
-What a map preserves is a choice: which descriptors count, how sharply, and how much each term of the energy weighs.
-Here these numbers are learned from two pairs of shapes whose true correspondence is known, and tried on another one.
-Learning needs PyTorch (``pip install 'kfmaps[learn]'``); what was learned does not.
+The weights of the descriptors, the bandwidth of the kernel and the weights of the terms decide what a map preserves.
+Here they are learned from two pairs of shapes with known correspondences, and tested on another pair. Learning needs
+PyTorch (``pip install 'kfmaps[learn]'``); using the result does not.
 """
 
 from dataclasses import replace
@@ -31,9 +31,9 @@ def creature(number):
 
 
 # %%
-# Learning wants what a pair offers: its descriptors and the truth. It changes the width γ of the kernel, a metric on
-# the descriptors, and the weights of the energy's terms, so that the expected error of the map falls on two pairs; the
-# third tells when to stop.
+# Learning takes the descriptors and the truth of each pair. It changes the width γ of the kernel, a metric on the
+# descriptors, and the weights of the energy's terms, so that the expected error of the map falls on two pairs. The
+# third pair decides when to stop.
 
 pairs = []
 for number in (1, 2, 3):
@@ -48,12 +48,12 @@ learned = model.settings()
 print(learned.kernel, learned.weights, sep="\n")
 
 # %%
-# How it went, epoch by epoch; the ring marks the state that was kept, the best on the pair held out.
+# The losses of each epoch. The ring marks the state that was kept, the best on the held-out pair.
 
 figure = kfmaps.learn.learning_figure(state.history)
 
 # %%
-# A fourth pair, which had no part in any of it, with the settings before and after:
+# A fourth pair, which had no part in learning, with the settings before and after:
 
 source, target, made, landmarks = creature(4)
 means = {}
@@ -63,6 +63,6 @@ for name, settings in (("before", config), ("learned", learned)):
     print(f"{name:8} mean error {100 * means[name]:.2f} % of √area")
 
 # %%
-# The weights are plain numbers that a settings file holds: ``kfmaps learn`` writes one for ``kfmaps match --config``.
+# The weights are plain numbers: ``kfmaps learn`` writes them to a settings file for ``kfmaps match --config``.
 
 assert means["learned"] < 0.97 * means["before"]

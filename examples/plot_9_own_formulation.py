@@ -2,8 +2,8 @@
 A formulation of your own
 =========================
 
-A penalty that is not in the package: few rows of the map may be used, a group lasso. It needs a value and a quadratic
-term that lies above it and touches it where the map is; kernel, constraint and solver come with the rest.
+This penalty, a group lasso, is not in the package: it keeps few rows of the map. It needs a value and a quadratic term
+that lies above it and touches it at the current map. The package provides the rest: kernel, constraint and solver.
 """
 
 from dataclasses import dataclass, replace
@@ -33,7 +33,7 @@ class FewRows:
 
 
 # %%
-# The energy of a pair is made as :func:`kfmaps.match` does; the penalty joins it, with whatever else is asked.
+# The energy of a pair is made as in :func:`kfmaps.match`; the penalty is added to it.
 
 pair = kfmaps.datasets.two_poses(vertices=1500)
 config = replace(kfmaps.Config.single_fit(), basis=kfmaps.BasisConfig(n_eigenfunctions=40), refinement=None)
