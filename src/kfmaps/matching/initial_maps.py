@@ -43,11 +43,11 @@ from kfmaps.matching.solve import Fit, minimize_problem
 
 WEAK: CostWeights = (4.0, 12.0)
 COARSE_WEIGHTS: tuple[CostWeights, ...] = ((0.0, 0.0), STRONG, WEAK)
-"""Of sign maps in the coarse refinement; without any cost symmetric maps are found too."""
+"""Weights of sign maps in the coarse refinement; with zero weights symmetric maps are found too."""
 EXTREMITY_WEIGHTS: CostWeights = (4.0, 12.0, 30.0)
 START_SIZES = (6, 10, 20)
-"""Functions that the coarse refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
-shapes that are far from isometric; from many it keeps what is right."""
+"""Functions that the coarse refinement of a fit starts from. With few it repairs maps that are wrong in part, even
+between shapes that are far from isometric; with many it keeps what is right."""
 FIT_SAMPLES = 2000
 """Samples of each shape that a fit is made from."""
 

@@ -225,7 +225,7 @@ class Match:
         Parameters
         ----------
         functional_map : (k_t, k_s) array, optional
-            Where the energy is evaluated; by default at that of the match. Of a larger map the block of the first
+            Where the energy is evaluated; by default at that of the match. For a larger map the block of the first
             ``config.basis.n_eigenfunctions`` counts.
 
         Raises

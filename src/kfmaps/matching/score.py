@@ -75,7 +75,7 @@ class PartScoring:
     calibration: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2))
     """Fitted by `benchmarks/parts_verdict.py`."""
     calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9))
-    """Of two parts, whose right placements have lower scores; fitted to the pairs of `benchmarks/part_to_part.py`."""
+    """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0
@@ -340,7 +340,7 @@ class PartEvidence:
     deformation_energy: float = math.inf  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
     gap: float = 0.0
     flipped_area: float = 0.0
-    # Of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
+    # Consistency of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
     # Absolute logarithm of the ratio of the scale of a small part to that of its file.
     scale_change: float = 0.0

@@ -233,11 +233,11 @@ def _compare_with_free(
 ) -> SearchResult:
     """Return the result of ``state``, to which landmarks have led, compared with ``found``, the one without them.
 
-    Where ``found`` contradicts most landmarks, as if left and right were exchanged, and is "sure" or "likely" and
-    clearly better, it rejects all and is the result. Of unlike shapes only repaired maps show which is better.
-    Otherwise, and where it contradicts half of them, it casts a doubt if it is not clearly worse, unless a turn may
-    keep the shapes: then landmarks decide. Where both are nearly the same map, that is as probable as without landmarks
-    at least. ``given``: before the search, with all landmarks.
+    If ``found`` contradicts most landmarks, as if left and right were exchanged, and is "sure" or "likely" and clearly
+    better, it rejects all landmarks and is the result. (Between unlike shapes only repaired maps show which is better.)
+    Otherwise, and if it contradicts half of them, it casts a doubt unless it is clearly worse. If a rotation may
+    preserve the shapes, landmarks decide instead. If both are nearly the same map, that is at least as probable as
+    without landmarks. ``given``: before the search, with all landmarks.
     """
     free = found and found._search
     if found is None or free is None:
@@ -266,8 +266,8 @@ def _settled_result(found: SearchResult | None, state: SearchState) -> tuple[Sea
     """Return the result ``found`` without landmarks with those of ``state``, if it is "sure" and keeps to them all.
 
     Then they only refine it: right landmarks never make it less certain. Also return whether it keeps to them so
-    closely that maps which begin with them would be no better. Of shapes so unlike that maps are repaired none would.
-    Where all landmarks are rejected it is the result whatever its verdict.
+    closely that maps which begin with them would be no better, as between shapes so unlike that maps are repaired. If
+    all landmarks are rejected it is the result whatever its verdict.
     """
     best = found and found._search
     if found is None or best is None or found.quality is None or found.orientation != state.orientation:
