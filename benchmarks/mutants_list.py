@@ -956,6 +956,8 @@ MUTANTS = tuple(
             "test_landmark_evidence -k final_landmark_errors",
         ),
         ("return share**2 * float(", "return share * float(", "test_score -k landmarks_support"),
+        ("SCORE.refused_registration if is_refused", "1.0 if is_refused", "test_score -k refused"),
+        ("not final.fit.accepted", "final.fit.accepted", "test_registration_accepted -k refused"),
         (
             "gain <= SCORE.close_margin and (contradicted",
             "gain <= SCORE.close_margin or (contradicted",

@@ -1,11 +1,13 @@
 """When a non-rigid fit is kept, and what holds it."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+import kfmaps
 from conftest import two_poses
 from kfmaps import datasets
 from kfmaps._progress import StageTimer
@@ -13,6 +15,8 @@ from kfmaps.fmap.precise import PointMap, point_positions, vertex_point_map
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.matching.finish import KnownMap, match_from_map
+from kfmaps.matching.score import SCORE
 from kfmaps.registration.accept import _MAX_GAP, _MAX_WORSENED_AREA, register_map
 from kfmaps.registration.deformable import deformable_mesh
 from kfmaps.registration.nonrigid_icp import NonRigid, Registration, _rotation_smoothing, mesh_pair
@@ -135,6 +139,23 @@ def test_a_gap_speaks_first(pair: datasets.ExamplePair) -> None:
     last = end(pair, finish)
     assert (last.fit.reason, last.fit.after, last.fit.accepted) == ("gap", None, False)
     assert len(finish.pinned) == 1
+
+
+def test_a_refused_registration_keeps_a_map_from_being_sure(pair: datasets.ExamplePair) -> None:
+    config = kfmaps.Config(
+        basis=kfmaps.BasisConfig(30), descriptors=kfmaps.DescriptorConfig(shot=False, n_eigenfunctions=30)
+    )
+    config = replace(config, refinement=kfmaps.ZoomOut(20, 30))
+    source, target = (kfmaps.prepare(mesh, config) for mesh in (pair.source, pair.target))
+    known = KnownMap(pair.truth, "a", verdict="sure", confidence=1.0, quality=-1.0)
+    kept, refused, none = (
+        match_from_map(source, target, known, replace(config, registration=one))
+        for one in (Pretended(pair, spot_of(pair, 0.0)), Pretended(pair, spot_of(pair, 0.0), gap=1.0), None)
+    )
+    assert [one.verdict for one in (kept, refused, none)] == ["sure", "likely", "sure"]
+    assert refused.confidence is not None
+    assert none.confidence == 1.0
+    assert refused.confidence <= SCORE.refused_registration
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE, deformation_cost, lower_by_torn_area, max_landmark_error, torn_score
+from kfmaps.matching.score import SCORE, deformation_cost, lower_by_registration, max_landmark_error, torn_score
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.accept import register_map
 from kfmaps.registration.evidence import MIN_ENERGY
@@ -108,7 +108,8 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         precise_map = pair.given_precise_map(precise_map) if len(task.meshes[0].faces) else None
     raw, back_points = refined.raw_target_to_source, refined.source_to_target
     torn_area = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
-    confidence, verdict = lower_by_torn_area(found.confidence, found.verdict, torn_area)
+    is_refused = final.fit is not None and not final.fit.accepted
+    confidence, verdict = lower_by_registration(found.confidence, found.verdict, torn_area, is_refused)
     return task.result(
         final.target_to_source,
         refined.functional_map,

@@ -167,6 +167,9 @@ class Scoring:
     """Distance from which an alternative maps a vertex elsewhere."""
     torn_confidence: float = 0.5
     """Local confidence below which a vertex counts as torn."""
+    refused_registration: float = 0.6
+    """Factor of the probability of a map whose registration is refused: of seven such maps three were right, of
+    416 others nine tenths (research/verdict.md)."""
     max_torn_area: float = 0.04
     """Share of torn area from which alternatives are refined and registered too, and a region is called doubtful."""
 
@@ -514,14 +517,17 @@ def probability_word(chance: float, numbers: Calibration = SCORE.calibration) ->
     return "sure" if chance >= numbers.sure else "likely" if chance >= numbers.likely else "unlikely"
 
 
-def lower_by_torn_area(chance: float | None, word: str, torn_area: float) -> tuple[float | None, str]:
-    """Return the probability and the verdict of a map on all vertices, lowered by its torn share of the area.
+def lower_by_registration(
+    chance: float | None, word: str, torn_area: float, is_refused: bool
+) -> tuple[float | None, str]:
+    """Return the probability and the verdict of a map on all vertices, lowered by its registration.
 
-    Right maps that are "sure" have 5 % at most (research/verdict.md).
+    ``torn_area``: its torn share of the area, of which right maps that are "sure" have 5 % at most
+    (research/verdict.md); ``is_refused``: whether the registration would have made the map worse.
     """
     if chance is None:
         return chance, word
-    chance *= 1.0 - torn_area
+    chance *= (1.0 - torn_area) * (SCORE.refused_registration if is_refused else 1.0)
     return chance, word if word == "ambiguous" else probability_word(chance)
 
 
