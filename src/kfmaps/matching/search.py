@@ -243,20 +243,20 @@ def _compare_with_free(
     if found is None or free is None:
         return _result(state, retries)
     best, led = free.ranked[0], state.ranked[0]
-    is_same = found.orientation == state.orientation
-    is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
     contradicted = contradicted_by(best, given)
-    if is_same or is_most(~contradicted):
-        result = _result(state, retries)
-        if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
-            return replace(result, confidence=found.confidence, verdict=found.verdict)
-        return result
     gain = without_landmark_errors(best).score - without_landmark_errors(led).score
     if is_most(contradicted) and gain > SCORE.close_margin and found.verdict in ("sure", "likely"):
         rejected = np.ones(len(given.landmarks), dtype=bool)
         samples, doubts = drop_landmarks(given.samples, rejected), doubt_of_led(led, best, gain, given.samples.fine)
         given = replace(given, rejected=rejected, samples=samples, doubts=doubts)
         return _settled_result(found, given)[0] or _result(state, retries)
+    is_same = found.orientation == state.orientation
+    is_same = is_same and map_distance(best, led, state.samples.fine.source) <= SCORE.twin_distance
+    if is_same or is_most(~contradicted):
+        result = _result(state, retries)
+        if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
+            return replace(result, confidence=found.confidence, verdict=found.verdict)
+        return result
     if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
     return _result(state, retries)
