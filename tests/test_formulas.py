@@ -114,6 +114,13 @@ def test_areas_of_samples_are_those_of_the_vertices_nearest_to_them(small_basis,
 
 
 @pytest.mark.parametrize("unit", [1e-3, 40.0])
+def test_crowded_samples_are_drawn_again_in_any_unit(unit, small_basis, rng):
+    uneven = replace(small_basis, mass=np.exp(9 * rng.random(len(small_basis.mass))) / 1e4)
+    large = Basis(uneven.eigenvalues / unit**2, uneven.functions / unit, uneven.mass * unit**2)
+    np.testing.assert_array_equal(spectral_samples(large, 30, 0).vertices, spectral_samples(uneven, 30, 0).vertices)
+
+
+@pytest.mark.parametrize("unit", [1e-3, 40.0])
 def test_the_samples_embedding_is_a_distance(unit, rng):
     """Biharmonic distances have the unit of the shape, so that they say something on thin parts as on thick ones."""
     basis = random_basis(80, 12, rng)

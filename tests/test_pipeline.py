@@ -165,6 +165,7 @@ def test_progress_goes_from_start_to_end(shape, other, landmark_vertices):
         assert done[0] == 0.0
         assert done[-1] == 1.0
         assert done == sorted(done)
+    assert any(0 < d < 0.5 for stage, d in calls if stage == "solve")
 
 
 def test_paper_settings_do_ten_plain_steps(shape, other, landmark_vertices):
