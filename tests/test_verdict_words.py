@@ -20,7 +20,7 @@ from kfmaps.viz.page import verdict_record
 
 def test_landmarks_are_advised_only_where_none_were_given() -> None:
     for kind in ("likely", "ambiguous", "unlikely"):
-        advice = " See that the landmarks do not exchange left and right." if kind == "ambiguous" else ""
+        advice = " Check that the landmarks do not exchange left and right." if kind == "ambiguous" else ""
         assert verdict_text(kind, 3) == VERDICTS[kind] + advice
         assert verdict_text(kind, 0).startswith(f"{VERDICTS[kind]} ")
         assert "landmarks" in verdict_text(kind, 0)

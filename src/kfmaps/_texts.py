@@ -51,7 +51,7 @@ _WITHOUT_LANDMARKS = {
     "unlikely": "Two or three landmarks may help.",
 }
 """Advice for matches without landmarks."""
-_WITH_LANDMARKS = {"ambiguous": "See that the landmarks do not exchange left and right."}
+_WITH_LANDMARKS = {"ambiguous": "Check that the landmarks do not exchange left and right."}
 """Advice for matches with landmarks."""
 
 

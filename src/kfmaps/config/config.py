@@ -63,7 +63,7 @@ class Config:
     search: Search | None = setting(Search, "search among many candidate maps; none: one fit")
     partial: Partial = setting(Partial, "matching of parts")
     device: str = setting("cpu", "where the fit is computed: cpu, or a PyTorch device such as cuda", option="--device")
-    threads: int | None = setting(None, "Python threads; every core with none", low=1, option="--threads")
+    threads: int | None = setting(None, "number of Python threads, by default every core", low=1, option="--threads")
 
     def __post_init__(self) -> None:
         check_record(self)

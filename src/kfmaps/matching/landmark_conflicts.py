@@ -48,13 +48,13 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     if verdict(free.quality.calibrated_score, margin, free.deformation_energy) not in ("sure", "likely"):
         return rejected, ()
     contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
+    if is_most(contradicted):
+        # Where left and right were exchanged, landmarks near the middle would mislead too.
+        contradicted = np.ones(len(contradicted), dtype=bool)
     gain = without_landmark_errors(free).score - without_landmark_errors(best).score
     if gain <= SCORE.close_margin and (contradicted & (errors <= limit)).any():
         return rejected, ((free, -gain),)
-    if not is_most(contradicted):
-        return contradicted, ()
-    # Where left and right were exchanged, landmarks near the middle would mislead too.
-    return np.ones(len(contradicted), dtype=bool), doubt_of_led(best, free, gain, samples)
+    return contradicted, doubt_of_led(best, free, gain, samples) if contradicted.all() else ()
 
 
 def doubt_of_led(
@@ -62,7 +62,7 @@ def doubt_of_led(
 ) -> tuple[tuple[Candidate, float], ...]:
     """Return the doubt that the map ``led`` by rejected landmarks casts on the ``free`` one, if they differ.
 
-    They may be right, as on a vase that half a turn preserves.
+    Rejected landmarks may be right, as on a vase that half a turn preserves.
     """
     differs = map_distance(led, free, samples.source) > SCORE.distinct_distance
     return ((led, margin),) if differs else ()
