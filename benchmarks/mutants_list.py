@@ -958,6 +958,7 @@ MUTANTS = tuple(
         ("return share**2 * float(", "return share * float(", "test_score -k landmarks_support"),
         ("SCORE.refused_registration if is_refused", "1.0 if is_refused", "test_score -k refused"),
         ("not final.fit.accepted", "final.fit.accepted", "test_registration_accepted -k refused"),
+        ("margin >= 0.0 and moved.mean() < 0.5", "margin >= 0.0", "test_symmetries"),
         (
             "gain <= SCORE.close_margin and (contradicted",
             "gain <= SCORE.close_margin or (contradicted",

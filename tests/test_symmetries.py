@@ -467,6 +467,8 @@ def test_exchanged_limbs_with_a_close_score_cast_a_doubt(symmetric, exchanged, m
     assert 0.05 < moved.mean() < 0.5
     assert doubted[~moved] == pytest.approx(0.9)
     assert _doubt_exchanged(trust, symmetric.truth, plain, symmetric.source.mesh) == pytest.approx(0.9)
+    elsewhere = replace(found, alternatives=(np.random.default_rng(0).permutation(symmetric.truth),))
+    assert _doubt_exchanged(trust, symmetric.truth, elsewhere, symmetric.source.mesh) == pytest.approx(0.9)
 
 
 def names(monkeypatch, pair, easy, on=None, landmarks=NO_LANDMARKS, descriptors=None):

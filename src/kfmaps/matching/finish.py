@@ -147,11 +147,12 @@ def _still_contradicted(task: MatchTask, found: SearchResult, points: np.ndarray
 def _doubt_exchanged(confidence: np.ndarray, points: np.ndarray, found: SearchResult, source: Mesh) -> np.ndarray:
     """Return the local confidence (n_t,), lower where an alternative that casts a doubt goes elsewhere.
 
-    An alternative that is better itself, as a map to the mirror image may be, changes nothing.
+    An alternative that is better itself, as a map to the mirror image may be, changes nothing. Nor does one that goes
+    elsewhere on most of the target: it says nothing of one region, and the map would seem torn.
     """
     for other, margin in zip(found.alternatives, found.doubts, strict=False):
-        if margin >= 0.0:
-            moved = np.linalg.norm(source.vertices[other] - source.vertices[points], axis=1) > SCORE.moved_distance
+        moved = np.linalg.norm(source.vertices[other] - source.vertices[points], axis=1) > SCORE.moved_distance
+        if margin >= 0.0 and moved.mean() < 0.5:
             confidence = confidence * (1.0 - moved * np.exp(-margin / SCORE.calibration.tie))
     return confidence
 
