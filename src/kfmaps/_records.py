@@ -149,10 +149,16 @@ def settings_record(cls: type[_T]) -> type[_T]:
     for name, usual in (("__post_init__", check_record), ("__repr__", short_repr)):
         if name not in vars(cls):
             setattr(cls, name, usual)
-    text, heading, examples = cleandoc(cls.__doc__ or "").partition("\n\nExamples\n")
     record: Any = dataclass(frozen=True)(cls)
     record.is_settings_record = True
-    lines = [f"{f.name} : {f.type}\n    {f.metadata.get('help', '')}" for f in fields(record)]
+    return document_fields(record)
+
+
+def document_fields(record: type[_T]) -> type[_T]:
+    """List the fields of a dataclass, with their help, in its documentation before its examples."""
+    own: Any = record
+    text, heading, examples = cleandoc(record.__doc__ or "").partition("\n\nExamples\n")
+    lines = [f"{f.name} : {f.type}\n    {f.metadata.get('help', '')}" for f in fields(own)]
     record.__doc__ = "\n".join([f"{text}\n", "Attributes", "----------", *lines]) + heading + examples
     return record
 

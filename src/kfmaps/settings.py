@@ -36,12 +36,18 @@ def read_learned(path: str | Path) -> JsonObject:
         # With weights_only PyTorch refuses anything but tensors and plain values.
         content = torch.load(Path(path), map_location="cpu", weights_only=True)
     except OSError as error:
-        raise refuse(f"{path}", _EXPECTED, error.strerror or str(error), _REMEDY) from error
+        raise refuse(f"{path}", _EXPECTED, _reason(error), _REMEDY) from error
     except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError) as error:
         raise refuse(f"{path}", _EXPECTED, "something else", _REMEDY) from error
     if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("settings"), str):
         raise refuse(f"{path}", _EXPECTED, "another content or version", _REMEDY)
     return content
+
+
+def _reason(error: OSError) -> str:
+    """Return in words why a file cannot be read."""
+    words = {FileNotFoundError: "nothing there", IsADirectoryError: "a folder"}
+    return words.get(type(error)) or error.strerror or str(error)
 
 
 PRESETS = ("default", "single-fit", "paper", "no17", "obcs12", *FORMULATIONS)
@@ -60,14 +66,12 @@ def preset(name: str) -> Config:
 def read_settings(path: str | Path, base: Config | None = None) -> Config:
     """Return ``base``, by default ``Config()``, with settings of a TOML file or a ``.pt`` file of ``kfmaps learn``."""
     try:
-        if Path(path).is_dir() or Path(path).is_char_device():  # one like /dev/zero never ends
-            got = "a folder" if Path(path).is_dir() else "a device"
-            raise refuse(f"--config {path}", "a settings file", got, "check the path")
+        if Path(path).is_char_device():  # one like /dev/zero never ends
+            raise refuse(f"--config {path}", "a settings file", "a device", "check the path")
         learned = Path(path).suffix == SUFFIX
         text = read_learned(path)["settings"] if learned else Path(path).read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        got = getattr(error, "strerror", None) or "text that is not UTF-8"
-        got = "nothing there" if isinstance(error, FileNotFoundError) else got
+        got = _reason(error) if isinstance(error, OSError) else "text that is not UTF-8"
         raise refuse(f"--config {path}", "a settings file", got, "check the path") from error
     try:
         values = tomllib.loads(text)

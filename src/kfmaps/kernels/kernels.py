@@ -13,7 +13,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from kfmaps._arrays import Array, is_numpy, like, namespace, refuse, to_numpy
-from kfmaps._records import setting, settings_record
+from kfmaps._records import document_fields, setting, settings_record
 
 
 @runtime_checkable
@@ -153,14 +153,10 @@ class Tanh:
         return xp.tanh(self.scale * xp.sum(X * X, axis=1) + self.offset)
 
 
+@document_fields
 @dataclass(frozen=True)
 class Sum:
     """``a(x, y) + b(x, y)``: the feature vectors side by side.
-
-    Attributes
-    ----------
-    a, b : KernelLike
-        The two kernels, records or callables.
 
     Examples
     --------
@@ -178,14 +174,10 @@ class Sum:
         return kernel_diagonal(self.a, X) + kernel_diagonal(self.b, X)
 
 
+@document_fields
 @dataclass(frozen=True)
 class Product:
     """``a(x, y) · b(x, y)``: all products of one feature of each.
-
-    Attributes
-    ----------
-    a, b : KernelLike
-        The two kernels, records or callables.
 
     Examples
     --------
