@@ -610,7 +610,7 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
         [best, deformed],
         "preserving",
     )
-    asked = []
+    asked, repair_rivals = [], search_module._repair_rivals
     monkeypatch.setattr(search_module, "rerank_close", lambda order, _proxies: asked.append(order) or order)
     monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: mended)
     assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right", "mended"]
@@ -619,6 +619,23 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     monkeypatch.setattr(search_module, "refine_by_registration", lambda ranked, *_rest, **_: (ranked, ()))
     improved = search_module._improve_best(state, lambda _stage, _done: None)[0]
     assert [c.name for c in improved.ranked] == ["right", "mended"]
+    # A map with limbs exchanged that comes first is compared with the rivals anew.
+    calls = []
+    monkeypatch.setattr(search_module, "_repair_rivals", lambda one: calls.append(one.ranked[0].name) or one)
+    monkeypatch.setattr(search_module, "_compare_exchanged", lambda one: replace(one, ranked=[mended, *one.ranked]))
+    search_module._improve_best(state, lambda _stage, _done: None)
+    assert calls == ["right", "mended"]
+    monkeypatch.setattr(search_module, "_compare_exchanged", lambda one: one)
+    search_module._improve_best(state, lambda _stage, _done: None)
+    assert calls == ["right", "mended", "right"]
+    monkeypatch.setattr(search_module, "_repair_rivals", repair_rivals)
+    asked.clear()
+    # A repair is repeated while it gains something.
+    repairs = [replace(mended, name=str(i), deformation_energy=(1.9 - i / 10) * energy) for i in range(5)]
+    for n_gains, last in ((1, "0"), (2, "1"), (5, "2")):
+        gains = iter(repairs[:n_gains])
+        monkeypatch.setattr(search_module, "_repaired", lambda rival, _state, gains=gains: next(gains, rival))
+        assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right", last]
     asked.clear()
     better = replace(mended, name="better", deformation_energy=energy / 2)
     monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: better)

@@ -19,7 +19,7 @@ from kfmaps.matching import candidates as candidates_module
 from kfmaps.matching import orientation, search, search_result
 from kfmaps.matching import self_maps as self_maps_module
 from kfmaps.matching.candidates import candidates, distinct_maps, has_clear_map, refine_coarse, score_maps
-from kfmaps.matching.extremity_matching import asymmetry, extremity_difference, match_of_map
+from kfmaps.matching.extremity_matching import ExtremityMatch, asymmetry, extremity_difference, match_of_map
 from kfmaps.matching.finish import _doubt_exchanged
 from kfmaps.matching.initial_maps import Start, symmetry_inits
 from kfmaps.matching.limb_exchange import _MAX_DIFFERENCE, compare_exchanged, exchange_limbs, exchanged_matches
@@ -424,6 +424,29 @@ def test_alike_extremities_are_exchanged_two_at_a_time(symmetric):
         assert (one.source[i], one.source[j]) == (match.source[j], match.source[i])
         assert np.array_equal(one.target, match.target)
         assert unlike[one.source[i], one.source[j]] <= _MAX_DIFFERENCE
+
+
+def test_limbs_of_one_side_are_exchanged_together_with_their_mirror_images(reflected):
+    same = np.arange(len(reflected.extremities.points))
+    partner, match = reflected.reflected_extremities, ExtremityMatch(same, same)
+    between = reflected.extremities.distances[:, reflected.extremities.points]
+
+    def exchanged_together(match, source):
+        return [one for one in exchanged_matches(match, source) if (one.source != match.source).sum() > 2]
+
+    paired = (partner != same).sum() // 2
+    both = exchanged_together(match, reflected)
+    assert len(both) == paired * (paired - 1) // 2 > 0
+    for images in (one.source for one in both):
+        limbs = np.flatnonzero(images != same)
+        assert len(limbs) == 4
+        assert np.array_equal(images[images], same)
+        assert np.array_equal(images[partner], partner[images])
+        assert (between[limbs, images[limbs]] < between[limbs, partner[images[limbs]]]).all()
+    assert len({tuple(one.source) for one in both}) == len(both)
+    assert not exchanged_together(match, replace(reflected, reflection_map=None))
+    left = np.flatnonzero(partner > same)
+    assert not exchanged_together(ExtremityMatch(left, left), reflected)
 
 
 def test_only_the_limbs_are_exchanged(symmetric, exchanged):

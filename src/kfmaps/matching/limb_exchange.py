@@ -1,7 +1,8 @@
-"""The best map with two similar limbs exchanged: alternatives that are made on purpose.
+"""The best map with limbs exchanged: alternatives that are made on purpose.
 
 A map that exchanges two legs and is right elsewhere is near the right map on average, and the legs themselves fit as
-well. What tells the two maps apart is the seam: the surface between exchanged legs is twisted and stretched.
+well. What tells the two maps apart is the seam: the surface between exchanged legs is twisted and stretched. Legs may
+also be exchanged alike on both sides of a body, so that the map still commutes with its reflection.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more."""
 
 
 def exchange_limbs(best: Candidate, pair: SamplePair) -> list[Candidate]:
-    """Return the map with two similar limbs of the source exchanged, one candidate for each pair of limbs.
+    """Return the map with limbs of the source exchanged, one candidate for each of :func:`exchanged_matches`.
 
-    Samples of the target that are nearest to the two extremities are mapped by the exchanged extremities, the others as
+    Samples of the target that are nearest to these extremities are mapped by the exchanged extremities, the others as
     before. Then the map is refined with the exchanged extremities as evidence.
     """
     match = match_of_map(best.points, pair.source, pair.target)
@@ -42,26 +43,49 @@ def exchange_limbs(best: Candidate, pair: SamplePair) -> list[Candidate]:
         on_limb = (other.source != match.source)[nearest_extremity]
         points = np.where(on_limb, cost.argmin(axis=1), best.points)
         C = np.asarray(pair.solver(size) @ functions[points, :size], dtype=np.float64)
-        starts.append(Start(f"{best.name}, two limbs exchanged", C, best.uses_descriptors, weights, match=other))
+        starts.append(Start(f"{best.name}, limbs exchanged", C, best.uses_descriptors, weights, match=other))
     half = max(size // 2, 2)
     return refine_batch(starts, pair, (half, (half + size) // 2, size))
 
 
 def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[ExtremityMatch]:
-    """Return ``match`` with two similar extremities of the source exchanged, the most similar first."""
+    """Return ``match`` with extremities of the source exchanged.
+
+    They are two similar ones, or two of one side of a body and likewise their mirror images.
+    """
     difference = extremity_difference(source, source)[np.ix_(match.source, match.source)]
     pairs = sorted((difference[i, j], i, j) for i, j in combinations(range(len(match.source)), 2))
-    exchanged = []
-    most = 4  # pairs of limbs that are exchanged, the most similar
-    for _, i, j in (pair for pair in pairs[:most] if pair[0] <= _MAX_DIFFERENCE):
-        images = match.source.copy()
+    most = 4  # pairs of limbs that are exchanged alone, the most similar
+    alone = [((i, j),) for d, i, j in pairs[:most] if d <= _MAX_DIFFERENCE]
+    return [_exchanged(match, both) for both in (*alone, *_mirrored_pairs(match, source))]
+
+
+def _mirrored_pairs(match: ExtremityMatch, source: ShapeSamples) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """Return pairs of matched extremities of one side of a body, each with the pair of their mirror images."""
+    if source.reflected_extremities is None:
+        return []
+    place = {extremity: i for i, extremity in enumerate(match.source.tolist())}
+    partner = [place.get(one, i) for i, one in enumerate(source.reflected_extremities[match.source].tolist())]
+    between = source.extremities.distances[:, source.extremities.points][np.ix_(match.source, match.source)]
+    return [
+        ((i, j), (partner[i], partner[j]))
+        for i, j in combinations(range(len(partner)), 2)
+        if len({i, j, partner[i], partner[j]}) == 4
+        and i < min(partner[i], partner[j])
+        and between[i, j] < between[i, partner[j]]
+    ]
+
+
+def _exchanged(match: ExtremityMatch, pairs: tuple[tuple[int, int], ...]) -> ExtremityMatch:
+    """Return ``match`` with the extremities of the source of each of these pairs exchanged."""
+    images = match.source.copy()
+    for i, j in pairs:
         images[[i, j]] = images[[j, i]]
-        exchanged.append(ExtremityMatch(images, match.target))
-    return exchanged
+    return ExtremityMatch(images, match.target)
 
 
 def compare_exchanged(best: Candidate, pair: SamplePair, proxies: ProxyCache) -> list[Candidate]:
-    """Return the map and the best one with two limbs exchanged, the better first, scored by the same evidence.
+    """Return the map and the best one with limbs exchanged, the better first, scored by the same evidence.
 
     Return the map alone where no exchange has nearly as good a score.
     """

@@ -231,7 +231,7 @@ class Scoring:
     """Margin behind which a candidate is not registered."""
     shot_margin: float = 2.5
     """Margin of the first two candidates below which their SHOT errors are compared; also the margin below which a map
-    with two limbs exchanged or to the mirror image casts a doubt."""
+    with limbs exchanged or to the mirror image casts a doubt."""
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
     turned_margin: float = 0.4

@@ -14,7 +14,7 @@ mirrored, or mirrored on half of the body. A search therefore compares many maps
 5. Landmarks that the best map contradicts are rejected, and steps 2 to 4 are repeated without them
    (:mod:`~kfmaps.matching.landmark_conflicts`).
 6. The best map is compared with those that are as good except for their deformation, once these are repaired, and with
-   itself with two similar limbs exchanged (:mod:`~kfmaps.matching.limb_exchange`).
+   itself with limbs exchanged (:mod:`~kfmaps.matching.limb_exchange`).
 7. Between unlike shapes the best candidates, or the best alone where it is "sure", are registered and refined in turn,
    and ranked again (:mod:`~kfmaps.matching.registration_refine`).
 8. The best candidate becomes the result, with alternatives, margins and a verdict
@@ -318,6 +318,15 @@ def _repaired(candidate: Candidate, state: SearchState) -> Candidate:
     return repaired if repaired.score > candidate.score else candidate
 
 
+def _repaired_often(candidate: Candidate, state: SearchState) -> Candidate:
+    """Return a candidate repaired until it gains nothing, at most three times: one turned limb has needed two."""
+    for _ in range(3):
+        before, candidate = candidate, _repaired(candidate, state)
+        if candidate is before:
+            break
+    return candidate
+
+
 def _repair_rivals(state: SearchState) -> SearchState:
     """Repair the candidates that are as good as the best except for their deformation, and rank them again.
 
@@ -325,7 +334,7 @@ def _repair_rivals(state: SearchState) -> SearchState:
     """
     (best, *rest), proxies = state.ranked, state.proxies
     near = N_REGISTERED - 1
-    repaired = [_repaired(c, state) if is_close_but_deformed(c, best) else c for c in rest[:near]]
+    repaired = [_repaired_often(c, state) if is_close_but_deformed(c, best) else c for c in rest[:near]]
     if all(a is b for a, b in zip(repaired, rest, strict=False)):
         return state
     order = by_preference([best, *repaired, *rest[near:]])
@@ -344,7 +353,10 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     samples, proxies = state.samples.fine, state.proxies
     if not samples.are_surfaces:
         return state, ()
-    state = _compare_exchanged(_repair_rivals(state))
+    state = _repair_rivals(state)
+    exchanged = _compare_exchanged(state)
+    # Where the exchanged map is the better one it is compared with the rivals anew.
+    state = exchanged if exchanged.ranked[0] is state.ranked[0] else _repair_rivals(exchanged)
     if state.ranked[0].quality.calibrated_score >= SCORE.repair_score:
         return state, ()
     # No wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
@@ -356,7 +368,7 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
 
 
 def _compare_exchanged(state: SearchState) -> SearchState:
-    """Compare the best map with itself with two similar limbs exchanged; the worse of the two becomes a doubt."""
+    """Compare the best map with itself with limbs exchanged; the worse of the two becomes a doubt."""
     best = state.ranked[0]
     order = compare_exchanged(best, state.samples.fine, state.proxies)
     if len(order) == 1:
