@@ -850,10 +850,22 @@ MUTANTS = tuple(
             "test_alternating_registration -k much_is_repaired",
         ),
         (
-            "_repaired(c, state) if is_close_but_deformed(c, best) else c",
+            "_repaired_often(c, state) if is_close_but_deformed(c, best, factor) else c",
             "c",
             "test_alternating_registration -k turned_limb",
         ),
+        (
+            "factor * (best.unregistered.score",
+            "(best.unregistered.score",
+            "test_alternating_registration -k turned_limb",
+        ),
+        (
+            "is state.ranked[0] else _repair_rivals(exchanged)",
+            "is state.ranked[0] else exchanged",
+            "test_alternating_registration -k turned_limb",
+        ),
+        ("between[i, j] < between[i, partner[j]]", "True", "test_symmetries -k together"),
+        ("len({i, j, partner[i], partner[j]}) == 4", "True", "test_symmetries -k together"),
         (
             "if order[0].score - order[1].score < SCORE.shot_margin:\n        order = rerank_close",
             "if order[0].score - order[1].score > SCORE.shot_margin:\n        order = rerank_close",
@@ -1125,7 +1137,7 @@ MUTANTS = tuple(
             "if is_same or (found.confidence",
             "test_registration_evidence -k hardly_change",
         ),
-        ("margin = share * max(", "margin = max(", "test_symmetries -k margin_counts_less"),
+        ("margin = state.samples.fine.margin_factor * max(", "margin = max(", "test_symmetries -k margin_counts_less"),
         ("are_symmetric and not self.has_one_reflection", "are_symmetric", "test_symmetries -k margin_counts_less"),
         ("is not None and len(side.self_maps)", "is not None", "test_symmetries -k margin_counts_less"),
         (

@@ -34,7 +34,7 @@ from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.result_groups import MatchRegistration
-from kfmaps.matching.sample_pair import TwoLevelSamples, mirrored_pair, paired_map, two_level_samples
+from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, mirrored_pair, paired_map, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality, deforms_too_much, is_close_but_deformed
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.matching.search_state import SearchState
@@ -595,6 +595,7 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     mended = replace(deformed, name="mended", deformation_energy=1.5 * energy)
     assert is_close_but_deformed(deformed, best)
     assert not is_close_but_deformed(worse, best)
+    assert is_close_but_deformed(worse, best, SCORE.turned_margin)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=1.5 * energy), best)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=None), best)
     state = SearchState(
@@ -646,3 +647,5 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right"]
     unchanged = replace(state, ranked=[best, worse])
     assert search_module._repair_rivals(unchanged) is unchanged
+    monkeypatch.setattr(SamplePair, "margin_factor", SCORE.turned_margin)
+    assert [c.name for c in search_module._repair_rivals(unchanged).ranked] == ["right"]

@@ -12,6 +12,7 @@ from kfmaps.fmap.zoomout import pseudo_inverse
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, heat_guidance, landmark_distances
 from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
+from kfmaps.matching.score import SCORE
 from kfmaps.shape import Shape
 
 CostWeights = tuple[float, ...]
@@ -45,10 +46,13 @@ class SamplePair:
         return self.source.reflection_map is not None or self.target.reflection_map is not None
 
     @property
-    def may_be_turned(self) -> bool:
-        """Whether both shapes have self-maps, but no single reflection, so that a turn may keep them, as a table."""
+    def margin_factor(self) -> float:
+        """Factor of margins in score: less than 1 where a turn may keep both shapes, as that of a table.
+
+        They have self-maps, but no single reflection.
+        """
         are_symmetric = all(side.self_maps is not None and len(side.self_maps) for side in (self.source, self.target))
-        return are_symmetric and not self.has_one_reflection
+        return SCORE.turned_margin if are_symmetric and not self.has_one_reflection else 1.0
 
     def solver(self, k: int) -> np.ndarray:
         """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""

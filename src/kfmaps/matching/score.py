@@ -235,7 +235,7 @@ class Scoring:
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
     turned_margin: float = 0.4
-    """Factor of margins between shapes that a turn may keep (:attr:`SamplePair.may_be_turned`): poses and proportions
+    """Factor of margins between shapes that a turn may keep (:attr:`SamplePair.margin_factor`): poses and proportions
     decide there, and a table was a turn off by a margin of 5.3 (research/verdict.md)."""
     turned_deformation: float = 3.0
     """Difference in :func:`deformation_cost` to the best from which a candidate that is close to it otherwise is
@@ -446,12 +446,15 @@ def deforms_too_much(candidate: Candidate) -> bool:
     return candidate.excess_deformation > SCORE.excess_deformation
 
 
-def is_close_but_deformed(candidate: Candidate, best: Candidate) -> bool:
-    """Return whether a map is about as good as the best except for its much greater deformation energy."""
+def is_close_but_deformed(candidate: Candidate, best: Candidate, factor: float = 1.0) -> bool:
+    """Return whether a map is about as good as the best except for its much greater deformation energy.
+
+    ``factor``: of the margin without that energy (:attr:`~kfmaps.matching.sample_pair.SamplePair.margin_factor`).
+    """
     if candidate.deformation_energy is None or best.deformation_energy is None:
         return False
     more = deformation_cost(candidate.deformation_energy) - deformation_cost(best.deformation_energy)
-    behind = best.unregistered.score - candidate.unregistered.score
+    behind = factor * (best.unregistered.score - candidate.unregistered.score)
     return more > SCORE.turned_deformation and behind < SCORE.close_margin
 
 

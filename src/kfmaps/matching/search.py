@@ -334,7 +334,8 @@ def _repair_rivals(state: SearchState) -> SearchState:
     """
     (best, *rest), proxies = state.ranked, state.proxies
     near = N_REGISTERED - 1
-    repaired = [_repaired_often(c, state) if is_close_but_deformed(c, best) else c for c in rest[:near]]
+    factor = state.samples.fine.margin_factor
+    repaired = [_repaired_often(c, state) if is_close_but_deformed(c, best, factor) else c for c in rest[:near]]
     if all(a is b for a, b in zip(repaired, rest, strict=False)):
         return state
     order = by_preference([best, *repaired, *rest[near:]])

@@ -111,8 +111,7 @@ def calibrated_evidence(
     margins = [*(margin for _, margin in _close_doubts(state)), *(_margin(best, other) for other in rest)]
     if not state.samples.fine.are_surfaces and (~state.rejected).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
-    share = SCORE.turned_margin if state.samples.fine.may_be_turned else 1.0
-    margin = share * max(min(margins, default=np.inf), 0.0)
+    margin = state.samples.fine.margin_factor * max(min(margins, default=np.inf), 0.0)
     support = support_of_landmarks(best, state.samples.fine) if state.trust_landmarks else 0.0
     return best.quality.calibrated_score, margin, best.deformation_energy, support
 
