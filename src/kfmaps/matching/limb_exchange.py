@@ -70,9 +70,7 @@ def _mirrored_pairs(match: ExtremityMatch, source: ShapeSamples) -> list[tuple[t
     return [
         ((i, j), (partner[i], partner[j]))
         for i, j in combinations(range(len(partner)), 2)
-        if len({i, j, partner[i], partner[j]}) == 4
-        and i < min(partner[i], partner[j])
-        and between[i, j] < between[i, partner[j]]
+        if i < min(partner[i], partner[j]) and between[i, j] < between[i, partner[j]]
     ]
 
 
