@@ -864,6 +864,11 @@ MUTANTS = tuple(
             "is state.ranked[0] else exchanged",
             "test_alternating_registration -k turned_limb",
         ),
+        (
+            "candidates=[*state.candidates, *repaired])",
+            "candidates=state.candidates)",
+            "test_alternating_registration -k before_mirror_images",
+        ),
         ("SCORE.close_mirror_margin if is_close else", "", "test_search -k told_from_a_kept"),
         ("between[i, j] < between[i, partner[j]]", "True", "test_symmetries -k together"),
         ("if i < min(partner[i], partner[j])", "if partner[i] != i", "test_symmetries -k together"),

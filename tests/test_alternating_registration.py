@@ -574,9 +574,17 @@ def test_a_map_that_deforms_too_much_is_repaired_before_mirror_images_are_tried(
     monkeypatch.setattr(search_module, "choose_orientation", lambda state, too_much: compared.append(too_much) or state)
     for too_much in (False, True):
         monkeypatch.setattr(search_module, "deforms_too_much", lambda _best, too_much=too_much: too_much)
-        ranked = search_module._rank(replace(torn_first, candidates=found[:1])).ranked
-        assert (ranked[0].score > found[0].score) == too_much
+        state = search_module._rank(replace(torn_first, candidates=found[:1]))
+        assert (state.ranked[0].score > found[0].score) == too_much
+        # Otherwise it would be lost when the candidates are ranked again, with others composed from mirror images.
+        assert len(state.candidates) == 1 + too_much
+        assert state.candidates[-1].functional_map is state.ranked[0].functional_map
+        assert state.candidates[-1].deformation_energy is None or not too_much
     assert compared == [False, True]
+    rivals = []
+    monkeypatch.setattr(search_module, "_repair_rivals", lambda one: rivals.append(one.ranked[0]) or one)
+    search_module._rank(replace(torn_first, candidates=found[:1]))
+    assert [one.score > found[0].score for one in rivals] == [True]
     monkeypatch.setattr(search_module, "register_map_on_proxies", lambda *_what: iter([None]))
     assert search_module._repaired(found[0], torn_first) is found[0]
     flat = replace(torn_first, proxies=ProxyCache(source, target, (None, None)))

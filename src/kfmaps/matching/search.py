@@ -298,8 +298,12 @@ def _rank(state: SearchState) -> SearchState:
         ranked = distinct_maps(ranked, samples.source, SCORE.distinct_distance)
     state = replace(state, ranked=ranked)
     if too_much:
-        # A right map with one extremity turned deforms as much as one that ought to go to the mirror image.
-        state = replace(state, ranked=[_repaired(ranked[0], state), *ranked[1:]])
+        # A right map with one extremity turned deforms as much as one that ought to go to the mirror image. What is
+        # repaired becomes a candidate, since these may be ranked again with other ones.
+        state = _repair_rivals(replace(state, ranked=[_repaired(ranked[0], state), *ranked[1:]]))
+        known = {id(c.functional_map) for c in state.candidates}
+        repaired = [c.unregistered for c in state.ranked if id(c.functional_map) not in known]
+        state = replace(state, candidates=[*state.candidates, *repaired])
     return choose_orientation(state, too_much)
 
 
