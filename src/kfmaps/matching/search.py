@@ -301,8 +301,8 @@ def _rank(state: SearchState) -> SearchState:
         # A right map with one extremity turned deforms as much as one that ought to go to the mirror image. What is
         # repaired becomes a candidate, since these may be ranked again with other ones.
         state = _repair_rivals(replace(state, ranked=[_repaired(ranked[0], state), *ranked[1:]]))
-        known = {id(c.functional_map) for c in state.candidates}
-        repaired = [c.unregistered for c in state.ranked if id(c.functional_map) not in known]
+        before = {id(c.functional_map) for c in ranked}
+        repaired = [c.unregistered for c in state.ranked if id(c.functional_map) not in before]
         state = replace(state, candidates=[*state.candidates, *repaired])
     return choose_orientation(state, too_much)
 
