@@ -222,8 +222,8 @@ class Scoring:
     mirror_margin: float = 5.0
     """Margin from which a map to the mirror image comes first with the setting "auto"; bones have 10."""
     close_mirror_margin: float = 9.0
-    """The same where the map that preserves orientation is close to it but for its deformation energy, of which one
-    turned limb has cost up to 8.5."""
+    """The same where the map that preserves orientation is about as good except for its deformation energy: one turned
+    limb has cost up to 8.5."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011

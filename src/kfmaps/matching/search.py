@@ -298,8 +298,8 @@ def _rank(state: SearchState) -> SearchState:
         ranked = distinct_maps(ranked, samples.source, SCORE.distinct_distance)
     state = replace(state, ranked=ranked)
     if too_much:
-        # A right map with one extremity turned deforms as much as one that ought to go to the mirror image. What is
-        # repaired becomes a candidate, since these may be ranked again with other ones.
+        # A right map with one extremity turned deforms as much as one that ought to go to the mirror image. Repaired
+        # maps become candidates, which may be ranked once more together with others.
         state = _repair_rivals(replace(state, ranked=[_repaired(ranked[0], state), *ranked[1:]]))
         before = {id(c.functional_map) for c in ranked}
         repaired = [c.unregistered for c in state.ranked if id(c.functional_map) not in before]
