@@ -99,15 +99,15 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     which, has_search = detection.which, task.config.search is not None
     if which in ("none", "both"):
         best = wholes(MatchPart(reason=detection.reason))
-        if which == "none" or best.verdict == "sure" or not has_search:
+        if which == "none" or best.verdict == "sure" or not has_search or _deforms_little(best, with_both=True):
             return best
         return _more_probable(best, _match_as(task, "both", detection.reason))
     if has_search and _may_be_whole(detection):
-        best = _match_holed(task, which, detection.reason, wholes)
+        best = _match_holed(task, which, detection, wholes)
     else:
         best, as_wholes = _match_part(task, which, detection.reason)
         best = best or wholes(as_wholes)
-    if best.verdict == "sure" or best.confidence is None:
+    if best.verdict == "sure" or best.confidence is None or (_may_be_whole(detection) and _deforms_little(best)):
         return best
     best = _compare_opposite(task, best, "target" if which == "source" else "source")
     if best.verdict == "sure" or not detection.both_open:
@@ -153,40 +153,57 @@ def _may_be_whole(detection: PartDetection) -> bool:
     return detection.opening <= SCORE.part.max_hole_opening
 
 
+def _deforms_little(match: Match, with_both: bool = False) -> bool:
+    """Return whether a match of whole shapes deforms them so little that hardly anything is missing of either.
+
+    ``with_both``: where both have long boundaries, between which a wrong map can deform less.
+    """
+    energy, numbers = match.score.deformation_energy, SCORE.part
+    most = numbers.max_deformation_of_two if with_both else numbers.max_whole_deformation
+    return energy is not None and energy <= most
+
+
 def _more_probable(first: Match | None, second: Match) -> Match:
     """Return the match that is more probably right; the ``first`` where both are equally probable."""
     return second if first is None or (second.confidence or 0.0) > (first.confidence or 0.0) else first
 
 
 def _match_holed(
-    task: MatchTask, which: Literal["source", "target"], reason: str, wholes: Callable[[MatchPart], Match]
+    task: MatchTask,
+    which: Literal["source", "target"],
+    detection: PartDetection,
+    wholes: Callable[[MatchPart], Match],
 ) -> Match:
     """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
 
     A body with holes is matched well either way, one of different proportions only as a whole. If little is missing the
-    full search for a part comes last, since it takes longer than all else.
+    full search for a part comes last, and only where the match as wholes deforms much: it takes longer than all else.
     """
     part, as_wholes, is_clear = None, MatchPart(reason=_FIT_AS_WHOLES, suspected=True), True
+    has_small_opening = detection.opening <= SCORE.part.max_small_opening
+    least = math.sqrt(SCORE.part.min_whole_area) if has_small_opening else 0.0
     try:
-        part, as_wholes = _match_part(task, which, reason, clear_only=True)
+        part, as_wholes = _match_part(task, which, detection.reason, least, clear_only=True)
     except NotClear:
         is_clear = False
     if part is not None and part.verdict == "sure":
         return part
     best = _more_probable(part, wholes(as_wholes))
-    return best if is_clear or best.verdict == "sure" else _more_probable(_match_part(task, which, reason)[0], best)
+    if is_clear or best.verdict == "sure" or _deforms_little(best):
+        return best
+    return _more_probable(_match_part(task, which, detection.reason)[0], best)
 
 
 def _match_part(
-    task: MatchTask, which: Literal["source", "target"], reason: str, clear_only: bool = False
+    task: MatchTask, which: Literal["source", "target"], reason: str, least_scale: float = 0.0, clear_only: bool = False
 ) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, and what a match of whole shapes says about parts.
 
-    The match is ``None`` where each shape covers the other, and where the part does not fit. ``clear_only``: see
-    :func:`kfmaps.matching.partial.place_part.place_part`.
+    The match is ``None`` where each shape covers the other, and where the part does not fit. ``least_scale`` and
+    ``clear_only``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     with task.clock("parts"):
-        part, covers = match_partial(task, which, reason, clear_only=clear_only)
+        part, covers = match_partial(task, which, reason, least_scale, clear_only)
     if not covers and part.verdict != "unlikely":
         return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if covers else "it fits nowhere"

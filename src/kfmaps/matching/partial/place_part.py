@@ -82,7 +82,8 @@ class PartTask:
     both_partial: bool = False  # whether the whole may lack something too
     rng: int = 0
     least_scale: float = 0.0  # where all likely placements are smaller, only the first of them is registered
-    # Raise :exc:`NotClear` where the search would not end early and the part seems to be most of the whole.
+    # Try no scale below ``least_scale``, and raise :exc:`NotClear` where the search would not end early and the part
+    # seems to be most of the whole.
     clear_only: bool = False
 
 
@@ -142,6 +143,8 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     scales = [ratio] if pair.fixed_scale and ratio else [*SCALES, *(LARGER_SCALES if pair.both_partial else ())]
     if not pair.fixed_scale and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
         scales.append(ratio)
+    if task.clear_only and not pair.fixed_scale:
+        scales = [scale for scale in scales if scale >= task.least_scale]
     supported: list[Placement] = []
     for some in ([ratio], scales) if ratio in scales[1:] else (scales,):
         supported = try_scales(pair, some)
