@@ -34,11 +34,37 @@ from scipy.spatial.transform import Rotation
 import kfmaps
 from kfmaps.geometry.mesh import Mesh
 
-FOUR_LEGGED = (
-    "camel,deer_mesh,donkey,elephant_african_bush,elephant_asian_male,fox,giraffe_adult,horse,animal_lion,"
-    "mastiff_no_spikes,rhino,sanga_cattle_a,sheep,tiger,wildebeest_adult,zebra,zebu,goat,bull_a,pig,bear,wolf,"
-    "animal_boar,cattle_female_a,animal_lioness,bear_polar,elephant_african_baby,pony,giraffe_infant"
-).split(",")
+FOUR_LEGGED = [
+    "camel",
+    "deer_mesh",
+    "donkey",
+    "elephant_african_bush",
+    "elephant_asian_male",
+    "fox",
+    "giraffe_adult",
+    "horse",
+    "animal_lion",
+    "mastiff_no_spikes",
+    "rhino",
+    "sanga_cattle_a",
+    "sheep",
+    "tiger",
+    "wildebeest_adult",
+    "zebra",
+    "zebu",
+    "goat",
+    "bull_a",
+    "pig",
+    "bear",
+    "wolf",
+    "animal_boar",
+    "cattle_female_a",
+    "animal_lioness",
+    "bear_polar",
+    "elephant_african_baby",
+    "pony",
+    "giraffe_infant",
+]
 GROUND = 0.22
 """Height, of that of the animal, below which a vertex is near the ground."""
 FACES = 9000

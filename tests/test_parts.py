@@ -385,10 +385,19 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
             np.testing.assert_allclose(found.trust[i], max(share[best] - 0.3, 0) / 0.7, rtol=1e-9, atol=1e-12)
 
 
+def fake_match(word: str, confidence: float, scale: float = 0.7, energy: float | None = None) -> SimpleNamespace:
+    score = SimpleNamespace(deformation_energy=energy)
+    return SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart(scale=scale), score=score)
+
+
 @pytest.mark.parametrize(
     ("word", "output", "opening", "asked", "whole", "expected", "steps"),
     [
         ("sure", 0.95, 0.05, "auto", "sure", "part", ["clear"]),
+        ("sure", 0.95, 0.09, "auto", "sure", "part", ["clear at any scale"]),
+        ("none clear", 0.7, 0.09, "auto", "likely, deformed little", "whole", ["clear at any scale", "whole"]),
+        ("none clear", 0.7, 0.05, "auto", "likely, deformed little", "whole", ["clear", "whole"]),
+        ("ambiguous", 0.7, 0.3, "none", "ambiguous, deformed little", "whole", ["whole", "part"]),
         ("ambiguous", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole"]),
         ("likely", 0.7, 0.05, "auto", "likely", "part", ["clear", "whole"]),
         ("none clear", 0.7, 0.05, "auto", "sure", "whole", ["clear", "whole"]),  # the full search is spared
@@ -410,11 +419,13 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     monkeypatch, small, word, output, opening, asked, whole, expected, steps
 ):
     tried = []
-    part = SimpleNamespace(verdict=word, confidence=output, partial=MatchPart(scale=0.7))
-    other = SimpleNamespace(verdict=whole, confidence=0.6, partial=MatchPart(scale=0.7))
+    whole, _, deformed = whole.partition(", ")
+    part = fake_match(word, output)
+    other = fake_match(whole, 0.6, energy=0.29 if deformed else 0.31)
+    opposites = []
 
-    def parts(*_, clear_only=False):
-        tried.append("clear" if clear_only else "part")
+    def parts(_task, _which, _why, least_scale=0.0, clear_only=False):
+        tried.append("part" if not clear_only else "clear" if least_scale**2 > 0.69 else "clear at any scale")
         if clear_only and word == "none clear":
             raise NotClear
         return part, False
@@ -426,12 +437,14 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
 
     monkeypatch.setattr(match_module, "match_partial", parts)
     monkeypatch.setattr(match_module, "_match_wholes", wholes)
-    monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: best)
+    monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: opposites.append(1) or best)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", opening))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
     result = match_module.match(small, small, config)
     assert result is {"part": part, "whole": other}[expected]
     assert tried == steps
+    if deformed and opening < 0.2:
+        assert not opposites  # nor is the other shape tried as the part
 
 
 @pytest.mark.parametrize(
@@ -454,8 +467,8 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
 def test_a_wrong_statement_of_the_part_makes_no_map_worse(
     monkeypatch, small, stated, detected, opening, word, expected, steps
 ):
-    part = SimpleNamespace(verdict="ambiguous", confidence=0.4, partial=MatchPart(scale=0.7))
-    other = SimpleNamespace(verdict=word, confidence=0.6, partial=MatchPart(scale=0.7))
+    part = fake_match("ambiguous", 0.4)
+    other = fake_match(word, 0.6)
     tried = []
 
     def matched(_task, which, *_, **__):
@@ -473,6 +486,18 @@ def test_a_wrong_statement_of_the_part_makes_no_map_worse(
     assert tried == steps
 
 
+@pytest.mark.parametrize(("energy", "tries_parts"), [(0.09, False), (0.11, True), (None, True)])
+def test_two_open_shapes_that_match_as_wholes_without_deformation_are_not_taken_for_parts(
+    monkeypatch, small, energy, tries_parts
+):
+    """As of a fish in two poses whose fins are open sheets, where wrong parts have been more probable."""
+    part, whole = fake_match("sure", 0.95), fake_match("ambiguous", 0.6, energy=energy)
+    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, False))
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: whole)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "open", 0.3, True))
+    assert match_module.match(small, small, AUTO) is (part if tries_parts else whole)
+
+
 @pytest.mark.parametrize(
     ("both_open", "word", "expected", "steps"),
     [
@@ -484,12 +509,9 @@ def test_a_wrong_statement_of_the_part_makes_no_map_worse(
 def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_are_open(
     monkeypatch, small, both_open, word, expected, steps
 ):
-    answers = {
-        which: SimpleNamespace(verdict="ambiguous", confidence=value, partial=MatchPart(scale=0.7))
-        for which, value in (("target", 0.4), ("both", 0.45))
-    }
+    answers = {which: fake_match("ambiguous", value) for which, value in (("target", 0.4), ("both", 0.45))}
     confidence = 0.95 if word == "sure" else 0.3
-    answers["source"] = SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart(scale=0.7))
+    answers["source"] = fake_match(word, confidence)
     tried = []
 
     def matched(_task, which, *_, **__):
@@ -521,8 +543,8 @@ def test_an_open_scan_may_hold_all_of_a_closed_shape(
     """A scan with its floor holds a whole body, so the closed shape may be the part."""
     word, _, marked = word.partition(", ")
     landmarks = [[0, 0]] if marked else None
-    part = SimpleNamespace(verdict=word, confidence=0.6, partial=MatchPart(scale=scale))
-    opposite = SimpleNamespace(verdict="likely", confidence=output, partial=MatchPart(scale=scale_of_opposite))
+    part = fake_match(word, 0.6, scale=scale)
+    opposite = fake_match("likely", output, scale=scale_of_opposite)
     answers = {"target": part, "source": opposite}
     tried = []
 

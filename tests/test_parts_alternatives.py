@@ -482,3 +482,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
         one.scale = 0.837
         with pytest.raises(place_part.NotClear):
             place_part._search_placements(pair, task, lambda _done: None)
+        scales_tried.clear()
+        with pytest.raises(place_part.NotClear):
+            place_part._search_placements(pair, replace(task, least_scale=0.8), lambda _done: None)
+        assert min(scales_tried[-1]) == pytest.approx(0.28 * 1.15**8)  # none below the least

@@ -203,7 +203,7 @@ def _match_part(
     ``clear_only``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     with task.clock("parts"):
-        part, covers = match_partial(task, which, reason, least_scale, clear_only)
+        part, covers = match_partial(task, which, reason, least_scale, clear_only=clear_only)
     if not covers and part.verdict != "unlikely":
         return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if covers else "it fits nowhere"
