@@ -5,9 +5,9 @@
 
 DIR is the folder ``art`` of the data of 0 A.D. (Wildfire Games, CC BY-SA 3.0; the file ``public.zip`` of Debian's
 package 0ad-data 0.0.26, unpacked). Each animal of ``actors/fauna`` has one mesh, of 100 to 1,700 triangles, and poses
-of its skeleton. Its largest piece is posed, subdivided (Loop 1987), and simplified where it is a manifold; otherwise
-its vertices are shuffled. Poses of one animal have an exact truth. Of every second pair the second pose is the one of
-20 that is farthest from the first, otherwise the median.
+of its skeleton. Its largest piece is posed, subdivided (Loop 1987), and simplified where it is an oriented manifold;
+otherwise its vertices are shuffled. Poses of one animal have an exact truth. Of every second pair the second pose is
+the one of 20 that is farthest from the first, otherwise the median.
 
 ``--across N``: animals of two kinds instead, whose parts are told by where they are while the animal stands: of the
 target's vertices near the ground, for which share the source's vertex is on the same side, and at the same end.
@@ -205,9 +205,10 @@ def meshed(
     while len(faces) < FACES:
         values, faces = subdivided(values, faces)
     pose, standing = values[:, :3], values[:, 3:]
-    if igl.is_vertex_manifold(animal.faces).all():
+    directed = np.concatenate([animal.faces[:, [i, i - 1]] for i in range(3)])
+    if np.all(igl.is_vertex_manifold(animal.faces)) and len(np.unique(directed, axis=0)) == len(directed):
         own, triangles = map(np.asarray, igl.decimate(pose, faces, n_faces)[:2])
-    else:  # which igl.decimate refuses, or never ends on
+    else:  # on others igl.decimate fails or never ends
         order = rng.permutation(len(pose))
         own, triangles = pose[order], np.argsort(order)[faces]
     turned = own @ Rotation.random(rng=rng).as_matrix().T * np.exp(rng.normal(0, 0.5))
@@ -252,7 +253,7 @@ def in_two_poses(name: str, animal: Animal, number: int) -> tuple[bool, bool]:
     target, own_t, pose_t, _ = meshed(animal, second, FACES - 1000, rng)
     truth = KDTree(own_s).query(pose_s[KDTree(pose_t).query(own_t)[1]])[1]
     found, known, told = found_by(source, target)
-    errors = 100 * kfmaps.geodesic_errors(source, found.target_to_source[known], truth[known])
+    errors = 100 * kfmaps.geodesic_errors(source, found.target_to_source[known], np.asarray(truth)[known])
     missing = 1 - known.mean()
     print(f"{name:24} {number:4} {errors.mean():7.2f} {missing:8.0%}   {told}", flush=True)
     return bool(errors.mean() < RIGHT and missing < 0.1), found.verdict == "sure"
@@ -271,7 +272,7 @@ def across(names: tuple[str, str], animals: tuple[Animal, Animal], number: int) 
         side.append((standing[:, 0] > 0)[nearest])
         end.append((standing[:, 2] > (feet.min() + feet.max()) / 2)[nearest])
     found, known, told = found_by(made[0][0], made[1][0])
-    rows = np.flatnonzero(is_low[1] & known)
+    rows: np.ndarray = np.flatnonzero(is_low[1] & known)
     at = found.target_to_source[rows]
     same_side, same_end = (float((one[0][at] == one[1][rows]).mean()) for one in (side, end))
     print(f"{names[0]:22} {names[1]:22} {number:4} {same_side:6.2f} {same_end:6.2f}   {told}", flush=True)

@@ -1100,7 +1100,18 @@ MUTANTS = tuple(
         ("supported[0].scale ** 2 >= SCORE.part.min_whole_area", "True", "test_parts_alternatives -k search_ends"),
         ("return order if is_sure else []", "return order", "test_parts_alternatives -k search_ends"),
         ("< numbers.early_exit_agreement", "< 0.0", "test_parts_alternatives -k search_ends"),
-        ("return best if is_clear or best.verdict", "return best if best.verdict", "test_parts -k unsure_part"),
+        ("if is_clear or best.verdict", "if best.verdict", "test_parts -k unsure_part"),
+        (
+            "_is_whole(best, detection):\n        return best\n    return",
+            "False:\n        return best\n    return",
+            "test_parts -k unsure_part",
+        ),
+        ("is None or _is_whole(best, detection):", "is None:", "test_parts -k unsure_part"),
+        ("return _may_be_whole(detection) and", "return", "test_parts -k unsure_part"),
+        ("detection.opening <= SCORE.part.max_small_opening:", "False:", "test_parts -k unsure_part"),
+        ("if is_small else 0.0", "if False else 0.0", "test_parts -k unsure_part"),
+        ("(best, SCORE.part.max_deformation_of_two)", "(best, 1.0)", "test_parts -k two_open"),
+        ("if scale >= task.least_scale]", "]", "test_parts_alternatives -k search_ends"),
         # where landmarks begin no maps
         ('found.verdict != "sure" and not', "not", "test_registration_evidence -k only_refine"),
         (

@@ -393,16 +393,25 @@ def fake_match(word: str, confidence: float, scale: float = 0.7, energy: float |
 @pytest.mark.parametrize(
     ("word", "output", "opening", "asked", "whole", "expected", "steps"),
     [
-        ("sure", 0.95, 0.05, "auto", "sure", "part", ["clear"]),
+        ("sure", 0.95, 0.04, "auto", "sure", "part", ["clear"]),
         ("sure", 0.95, 0.09, "auto", "sure", "part", ["clear at any scale"]),
         ("none clear", 0.7, 0.09, "auto", "likely, deformed little", "whole", ["clear at any scale", "whole"]),
-        ("none clear", 0.7, 0.05, "auto", "likely, deformed little", "whole", ["clear", "whole"]),
+        ("none clear", 0.7, 0.04, "auto", "likely", "whole", ["clear", "whole"]),  # a limb is missing at most
+        ("unlikely", 0.1, 0.3, "auto", "likely, deformed little", "whole", ["part", "whole"]),
         ("ambiguous", 0.7, 0.3, "none", "ambiguous, deformed little", "whole", ["whole", "part"]),
-        ("ambiguous", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole"]),
-        ("likely", 0.7, 0.05, "auto", "likely", "part", ["clear", "whole"]),
-        ("none clear", 0.7, 0.05, "auto", "sure", "whole", ["clear", "whole"]),  # the full search is spared
-        ("none clear", 0.7, 0.05, "auto", "likely", "part", ["clear", "whole", "part"]),
-        ("none clear", 0.4, 0.05, "auto", "likely", "whole", ["clear", "whole", "part"]),
+        ("ambiguous", 0.4, 0.06, "auto", "likely", "whole", ["clear at any scale", "whole"]),
+        ("likely", 0.7, 0.06, "auto", "likely", "part", ["clear at any scale", "whole"]),
+        (
+            "none clear",
+            0.7,
+            0.06,
+            "auto",
+            "sure",
+            "whole",
+            ["clear at any scale", "whole"],
+        ),  # the full search is spared
+        ("none clear", 0.7, 0.06, "auto", "likely", "part", ["clear at any scale", "whole", "part"]),
+        ("none clear", 0.4, 0.06, "auto", "likely", "whole", ["clear at any scale", "whole", "part"]),
         ("ambiguous", 0.4, 0.3, "auto", "sure", "part", ["part"]),  # too much is missing for a whole
         ("ambiguous", 0.4, 0.05, "target", "sure", "whole", ["part", "whole"]),  # stated, but it has holes at most
         ("ambiguous", 0.4, 0.05, "target", "ambiguous", "part", ["part", "whole"]),
@@ -432,7 +441,8 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
 
     def wholes(*given):
         tried.append("whole")
-        assert given[-1].reason == ("" if asked == "none" else match_module._FIT_AS_WHOLES)
+        if word != "unlikely":  # which fits nowhere
+            assert given[-1].reason == ("" if asked == "none" else match_module._FIT_AS_WHOLES)
         return other
 
     monkeypatch.setattr(match_module, "match_partial", parts)
@@ -443,8 +453,9 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     result = match_module.match(small, small, config)
     assert result is {"part": part, "whole": other}[expected]
     assert tried == steps
-    if deformed and opening < 0.2:
-        assert not opposites  # nor is the other shape tried as the part
+    if asked == "auto":  # whether the other shape is tried as the part too
+        is_whole = opening < 0.05 or (deformed and opening < 0.2)
+        assert bool(opposites) == (result.verdict != "sure" and not is_whole)
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,12 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     which, has_search = detection.which, task.config.search is not None
     if which in ("none", "both"):
         best = wholes(MatchPart(reason=detection.reason))
-        if which == "none" or best.verdict == "sure" or not has_search or _deforms_little(best, with_both=True):
+        if (
+            which == "none"
+            or best.verdict == "sure"
+            or not has_search
+            or _deforms_at_most(best, SCORE.part.max_deformation_of_two)
+        ):
             return best
         return _more_probable(best, _match_as(task, "both", detection.reason))
     if has_search and _may_be_whole(detection):
@@ -107,7 +112,7 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     else:
         best, as_wholes = _match_part(task, which, detection.reason)
         best = best or wholes(as_wholes)
-    if best.verdict == "sure" or best.confidence is None or (_may_be_whole(detection) and _deforms_little(best)):
+    if best.verdict == "sure" or best.confidence is None or _is_whole(best, detection):
         return best
     best = _compare_opposite(task, best, "target" if which == "source" else "source")
     if best.verdict == "sure" or not detection.both_open:
@@ -153,14 +158,17 @@ def _may_be_whole(detection: PartDetection) -> bool:
     return detection.opening <= SCORE.part.max_hole_opening
 
 
-def _deforms_little(match: Match, with_both: bool = False) -> bool:
-    """Return whether a match of whole shapes deforms them so little that hardly anything is missing of either.
+def _is_whole(match: Match, detection: PartDetection) -> bool:
+    """Return whether both shapes are whole ones but for holes, by their boundaries and by a match as wholes."""
+    if detection.opening <= SCORE.part.max_small_opening:
+        return True
+    return _may_be_whole(detection) and _deforms_at_most(match, SCORE.part.max_whole_deformation)
 
-    ``with_both``: where both have long boundaries, between which a wrong map can deform less.
-    """
-    energy, numbers = match.score.deformation_energy, SCORE.part
-    most = numbers.max_deformation_of_two if with_both else numbers.max_whole_deformation
-    return energy is not None and energy <= most
+
+def _deforms_at_most(match: Match, limit: float) -> bool:
+    """Return whether a match as wholes deforms the shapes by no more energy than ``limit``."""
+    energy = match.score.deformation_energy
+    return energy is not None and energy <= limit
 
 
 def _more_probable(first: Match | None, second: Match) -> Match:
@@ -177,11 +185,11 @@ def _match_holed(
     """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
 
     A body with holes is matched well either way, one of different proportions only as a whole. If little is missing the
-    full search for a part comes last, and only where the match as wholes deforms much: it takes longer than all else.
+    full search for a part comes last, since it takes longer than all else, and not at all where both are whole.
     """
     part, as_wholes, is_clear = None, MatchPart(reason=_FIT_AS_WHOLES, suspected=True), True
-    has_small_opening = detection.opening <= SCORE.part.max_small_opening
-    least = math.sqrt(SCORE.part.min_whole_area) if has_small_opening else 0.0
+    is_small = detection.opening <= SCORE.part.max_small_opening
+    least = math.sqrt(SCORE.part.min_whole_area) if is_small else 0.0
     try:
         part, as_wholes = _match_part(task, which, detection.reason, least, clear_only=True)
     except NotClear:
@@ -189,7 +197,7 @@ def _match_holed(
     if part is not None and part.verdict == "sure":
         return part
     best = _more_probable(part, wholes(as_wholes))
-    if is_clear or best.verdict == "sure" or _deforms_little(best):
+    if is_clear or best.verdict == "sure" or _is_whole(best, detection):
         return best
     return _more_probable(_match_part(task, which, detection.reason)[0], best)
 

@@ -126,11 +126,11 @@ class PartScoring:
     """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
     max_hole_opening: float = 0.2
     """Opening up to which a shape may be a whole one with holes, unless its match as a part is "sure"."""
-    max_small_opening: float = 0.08
-    """Opening up to which a part has most of the whole's area: cuts of people and animals have 0.51 to 0.99 of it."""
+    max_small_opening: float = 0.05
+    """Opening up to which a shape lacks a limb at most: cuts of people and animals have 0.66 to 0.99 of the area."""
     max_whole_deformation: float = 0.3
-    """Deformation energy of a match as wholes up to which a shape with short boundaries is whole but for holes: unlike
-    animals have 0.2 to 0.26."""
+    """Deformation energy of a match as wholes up to which a shape with openings like holes is whole: right maps of
+    unlike animals have 0.2 to 0.4."""
     max_deformation_of_two: float = 0.1
     """The same where both have long boundaries: with parts missing of both it is 0.24 and more."""
     shrunk_scale: float = 0.26
