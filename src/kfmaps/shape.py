@@ -19,7 +19,7 @@ from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
-from kfmaps.geometry.clean import CleanedMesh, clean_mesh, face_outward
+from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward
 from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
@@ -30,6 +30,8 @@ EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
 """Number of vertices up to which eigenfunctions are exact to rounding, and the eigensolver's tolerance above it."""
 MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
+MIN_SEARCH_VERTICES = 1_000
+"""Number of vertices below which the faces of a surface are divided for a search."""
 _BALL_SUPPORT = 550  # most support points of SHOT in one ball on average
 _NORMAL_WEIGHT = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
@@ -90,6 +92,21 @@ class Shape:
         return replace(
             self, mesh=cleaned.mesh, basis=basis, shot=None if self.shot is None else self.shot[rows]
         ), cleaned
+
+    @cached_property
+    def divided(self) -> tuple[Shape, CleanedMesh]:
+        """:attr:`cleaned`, with its faces divided until there are :data:`MIN_SEARCH_VERTICES` where it has fewer.
+
+        A search compares samples of the vertices, and these are too few on a template of a game, say.
+        """
+        shape, cleaned = self.cleaned
+        if len(shape.mesh.faces) == 0 or len(shape.mesh.vertices) >= MIN_SEARCH_VERTICES:
+            return self.cleaned
+        cleaned = divide_mesh(replace(cleaned, mesh=shape.mesh), MIN_SEARCH_VERTICES)
+        cleaned = replace(cleaned, mesh=unit_area(cleaned.mesh))
+        basis = laplace_basis(cleaned.mesh, len(self.basis.eigenvalues), self.laplacian)
+        local = None if self.shot_radius is None else _local_descriptors(cleaned.mesh, basis, self.shot_radius)
+        return replace(shape, mesh=cleaned.mesh, basis=basis, shot=local), cleaned
 
     @property
     def given_mesh(self) -> Mesh:

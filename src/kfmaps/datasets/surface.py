@@ -9,6 +9,7 @@ from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
 from kfmaps.geometry.cloud_surface import boundary_of_cells, circumcentres
+from kfmaps.geometry.connectivity import divide_faces
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_rows
 from kfmaps.geometry.topology import topology
 
@@ -120,12 +121,8 @@ def _subdivide(field: _Field, points: np.ndarray, faces: np.ndarray, count: int)
 
     The new points lie on the surface itself, not on the faces.
     """
-    a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edges, number = np.unique(np.minimum(a, b) * len(points) + np.maximum(a, b), return_inverse=True)
-    middles = 0.5 * (points[edges // len(points)] + points[edges % len(points)])
-    across = len(points) + number.reshape(-1, 3)  # the middle of the edge from corner i to corner i + 1
-    corners = np.stack([faces, across, across[:, [2, 0, 1]]], axis=2).reshape(-1, 3)
-    points, faces = np.concatenate([points, middles]), np.concatenate([corners, across])
+    edges, faces = divide_faces(faces, len(points))
+    points = np.concatenate([points, 0.5 * (points[edges[:, 0]] + points[edges[:, 1]])])
     largest = np.argsort(-face_areas(Mesh(points, faces)), kind="stable")[: count - len(points)]
     cut, centres = faces[largest], len(points) + np.arange(len(largest))
     thirds = [np.stack([cut[:, i], cut[:, (i + 1) % 3], centres], axis=1) for i in range(3)]

@@ -14,12 +14,13 @@ from scipy.spatial import KDTree
 from kfmaps.geometry.connectivity import (
     boundary_edges,
     component_labels,
+    divide_faces,
     proper_faces,
     renumbering,
     unique_vertices,
 )
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
-from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.mesh import Mesh, face_areas, vertex_normals
 
 _MAX_SPECK_AREA = 0.005
 """Area of a component, over that of the largest, below which it is a speck: that of one of 200 samples."""
@@ -30,7 +31,7 @@ class CleanedMesh:
     """A cleaned mesh of ``m`` vertices and the numbers of its ``n`` original ones; made by :func:`clean_mesh`."""
 
     mesh: Mesh  # Its faces have three different corners. The given mesh itself where there is nothing to clean.
-    to_original: np.ndarray  # (m,): original number of each vertex, ascending; the first of welded vertices
+    to_original: np.ndarray  # (m,): original number of each vertex, ascending; the first of welded ones
     to_clean: np.ndarray  # (n,): cleaned number of each original vertex
     unreferenced: np.ndarray  # (n,) bool: original vertices that no face uses; they have the number of the nearest
     faces_to_original: np.ndarray  # (g,): original number of each face, ascending
@@ -38,10 +39,13 @@ class CleanedMesh:
     specks: int = 0  # components left out
     doubled: int = 0  # faces left out that coincide with another one
     turned: np.ndarray | None = None  # (g,) bool: faces with the orientation reversed; ``None`` where none is
+    # (g, 3, 3): barycentric coordinates of each face's corners in the face that it is a piece of; ``None`` where faces
+    # are not divided (:func:`divide_mesh`).
+    corners: np.ndarray | None = None
 
     @property
     def whole(self) -> bool:
-        """Whether no vertex is welded or left out."""
+        """Whether no vertex is welded, left out or added."""
         return len(self.to_original) == len(self.to_clean)
 
 
@@ -123,6 +127,33 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
     if not turned.any():
         return part
     return replace(part, mesh=Mesh(part.mesh.vertices, turn_faces(faces, turned)), turned=turned)
+
+
+def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
+    """Return a cleaned mesh whose faces are cut in four until there are ``count`` vertices; new ones come last.
+
+    New vertices lie on a smooth surface through the others (Phong tessellation, Boubekeur and Alexa 2008), since two
+    coarse meshes of one body have their edges elsewhere. They have the original number of an end of their edge.
+    """
+    smoothness = 0.75  # as proposed there
+    mesh, to_original, rows = part.mesh, part.to_original, part.faces_to_original
+    corners, turned = np.tile(np.eye(3), (len(mesh.faces), 1, 1)), part.turned
+    middle = 0.5 * np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]])
+    while len(mesh.vertices) < count:
+        edges, faces = divide_faces(mesh.faces, len(mesh.vertices))
+        ends, normals = mesh.vertices[edges], vertex_normals(mesh)[edges]
+        middles = ends.mean(axis=1)
+        heights = np.einsum("eki,eki->ek", middles[:, None] - ends, normals)  # over the planes that touch at the ends
+        middles -= smoothness * np.einsum("ek,eki->ei", heights, normals) / 2
+        vertices = np.concatenate([mesh.vertices, middles])
+        at_corners = [np.stack([np.eye(3)[i], middle[i], middle[i - 1]]) for i in range(3)]
+        pieces = np.einsum("pij,fjk->fpik", [*at_corners, middle], corners)
+        corners = np.concatenate([pieces[:, :3].reshape(-1, 3, 3), pieces[:, 3]])
+        parent = np.concatenate([np.repeat(np.arange(len(rows)), 3), np.arange(len(rows))])
+        rows, turned = rows[parent], None if turned is None else turned[parent]
+        to_original = np.concatenate([to_original, to_original[edges[:, 0]]])
+        mesh = Mesh(vertices, faces)
+    return replace(part, mesh=mesh, to_original=to_original, faces_to_original=rows, turned=turned, corners=corners)
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:

@@ -60,9 +60,13 @@ class MatchTask:
     def result(self, points: np.ndarray, C: np.ndarray, local_confidence: np.ndarray, **fields: Any) -> Match:
         """Return the match of a point map of the cleaned shapes, with its functional map and local confidence."""
         k_t, k_s = C.shape
+        points = self.pair.given_points(points)
         bases = [shape.basis.truncate(k) for shape, k in zip(self.pair.given, (k_s, k_t), strict=True)]
+        if self.pair.is_divided:
+            pulled = to_numpy(bases[0].functions)[np.maximum(points, 0)] * (points >= 0)[:, None]
+            C = to_numpy(bases[1].project(pulled))
         return Match(
-            target_to_source=self.pair.given_points(points),
+            target_to_source=points,
             functional_map=C,
             source=self.meshes[0],
             target=self.meshes[1],
@@ -270,7 +274,7 @@ def match_from_map(
     points = check_point_map(known.points, len(source.mesh.vertices), len(target.mesh.vertices))
     none = np.zeros((0, 2), dtype=np.int64)
     meshes = (source.given_mesh, target.given_mesh)
-    task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer())
+    task = MatchTask(meshes, reindexing(source, target, divided=True), config, none, seed_of(rng), StageTimer())
     shapes = task.shapes(known.orientation)
     size = min(FINE_FUNCTIONS, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]

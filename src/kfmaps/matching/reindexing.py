@@ -31,6 +31,11 @@ class VertexReindexing:
         """Whether the numbers are the same."""
         return self.clean_s.whole and self.clean_t.whole
 
+    @property
+    def is_divided(self) -> bool:
+        """Whether a mesh has more vertices than as given, and its functions are not those of the given one."""
+        return self.clean_s.corners is not None or self.clean_t.corners is not None
+
     def clean_landmarks(self, pairs: Array) -> Array:
         """Return landmarks ``(l, 2)`` of the cleaned shapes; ``None`` stays."""
         if pairs is None or self.is_identity:
@@ -75,13 +80,16 @@ class VertexReindexing:
     def given_precise_map(self, places: PointMap) -> PointMap:
         """Return points in triangles of the cleaned source as points in triangles of the given one."""
         faces, weights, turned = self.clean_s.faces_to_original[places.faces], places.weights, self.clean_s.turned
+        if self.clean_s.corners is not None:
+            weights = np.einsum("ni,nij->nj", weights, self.clean_s.corners[places.faces])
         if turned is not None:
             weights = np.where(turned[places.faces][:, None], weights[:, ::-1], weights)
         return PointMap(faces[self.clean_t.to_clean], weights[self.clean_t.to_clean])
 
     def given_registered(self, vertices: np.ndarray) -> np.ndarray:
         """Return registered vertices (m_s, 3) of the cleaned source for the given one, (n_s, 3), on its target."""
-        cleaned, given = self.target.mesh.vertices, self.given[1].mesh.vertices[self.clean_t.to_original]
+        numbers, rows = np.unique(self.clean_t.to_original, return_index=True)
+        cleaned, given = self.target.mesh.vertices[rows], self.given[1].mesh.vertices[numbers]
         scale = np.linalg.norm(given - given.mean(axis=0)) / np.linalg.norm(cleaned - cleaned.mean(axis=0))
         return scale * (vertices - cleaned.mean(axis=0))[self.clean_s.to_clean] + given.mean(axis=0)
 
@@ -99,7 +107,12 @@ def _at_given(values: np.ndarray, cleaned: CleanedMesh) -> np.ndarray:
     return np.where(cleaned.unreferenced, 0.0, values[cleaned.to_clean])
 
 
-def reindexing(source: Shape, target: Shape) -> VertexReindexing:
-    """Return the numbers of the cleaned meshes of two prepared shapes beside those of the meshes as given."""
-    (cleaned_s, clean_s), (cleaned_t, clean_t) = source.cleaned, target.cleaned
+def reindexing(source: Shape, target: Shape, divided: bool = False) -> VertexReindexing:
+    """Return the numbers of the cleaned meshes of two prepared shapes beside those of the meshes as given.
+
+    ``divided``: whether small meshes are divided, as a search needs them (:attr:`kfmaps.shape.Shape.divided`).
+    """
+    (cleaned_s, clean_s), (cleaned_t, clean_t) = (
+        shape.divided if divided else shape.cleaned for shape in (source, target)
+    )
     return VertexReindexing((source, target), cleaned_s, cleaned_t, clean_s, clean_t)

@@ -21,7 +21,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.assemble import assemble
 from kfmaps.matching.fit import fit_points
-from kfmaps.matching.reindexing import VertexReindexing
+from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
 from kfmaps.shape import mirror_image
 
@@ -237,6 +237,7 @@ class Match:
         if pair is None or self.partial.which != "none":
             got = "one from a file" if pair is None else "one of a part"
             raise refuse("energies", "a match of whole shapes with their bases", got, "match the shapes again")
+        pair = reindexing(*pair.given)
         shapes = pair.source, mirror_image(pair.target) if self.orientation == "reversing" else pair.target
         kept = np.delete(self.landmarks, self.score.rejected_landmarks, axis=0)
         points = fit_points(*shapes, config, pair.clean_landmarks(kept), rng=self.seed)
@@ -267,7 +268,7 @@ class Match:
         for name, mesh in (("source", self.source), ("target", self.target)):
             if len(mesh.faces) == 0:
                 raise refuse(name, "a surface with triangles", "a point cloud", "use target_to_source")
-        refine, columns = self.config.refinement, None
+        refine, columns, pair = self.config.refinement, None, reindexing(*pair.given)
         bases = (pair.source.basis, pair.target.basis)
         weight = getattr(refine, "descriptor_weight", 0.0)
         if weight and self.orientation != "reversing":

@@ -158,7 +158,7 @@ def retry(result: SearchResult, number: int, least: float) -> SearchResult | Non
 
 def scoring_samples(shape: Shape, rng: int | np.random.Generator | None = 0) -> ShapeSamples:
     """Return the samples of one shape that a search with ``rng`` uses, whatever the shape is matched with."""
-    return with_self_maps(sample_for_scoring(shape.cleaned[0], rng=derived_seed(seed_of(rng))))
+    return with_self_maps(sample_for_scoring(shape.divided[0], rng=derived_seed(seed_of(rng))))
 
 
 def _search_samples(
