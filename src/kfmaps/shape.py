@@ -165,7 +165,9 @@ def prepare(
     cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud = len(mesh.faces) == 0
     max_roughness = 0.24  # above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much
-    noisy = not is_cloud and roughness(cleaned.mesh.vertices, cleaned.mesh.faces) > max_roughness
+    # Edges of coarse meshes are as sharp as noise.
+    noisy = not is_cloud and len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES
+    noisy = noisy and roughness(cleaned.mesh.vertices, cleaned.mesh.faces) > max_roughness
     if noisy:
         cleaned = replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))
     unit = unit_area(cleaned.mesh)

@@ -10,7 +10,7 @@ import numpy as np
 
 from kfmaps._arrays import to_numpy
 from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
-from kfmaps.fmap.convert import to_functional
+from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.matching.candidates import FINE_FUNCTIONS, FINE_WEIGHTS, refine_batch
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.quality import ShapeSamples, mirror_samples
@@ -41,7 +41,7 @@ def score_pair_maps(
     Each map is refined on the samples first, as candidates of a search are. So scores are those of a search, whether or
     not a map was refined on all vertices.
     """
-    reindexed = reindexing(*shapes)
+    reindexed = reindexing(*shapes, divided=True)
     k = min(FINE_FUNCTIONS, len(reindexed.source.basis.eigenvalues), len(reindexed.target.basis.eigenvalues))
     bases = reindexed.source.basis.truncate(k), reindexed.target.basis.truncate(k)
     points = [reindexed.clean_points(one) for one, _ in maps]
@@ -55,7 +55,10 @@ def score_pair_maps(
             [Start("", functional_maps[i], weights=weights) for i in rows], pair, (max(k // 2, 2), k)
         )
         for i, one in zip(rows, refined, strict=True):
-            C = one.functional_map[:N_FUNCTIONS, :N_FUNCTIONS]
+            C = one.functional_map
+            if reindexed.is_divided:
+                C = reindexed.given_functional_map(reindexed.given_points(to_points(C, *bases)), C)
+            C = C[:N_FUNCTIONS, :N_FUNCTIONS]
             scored[i] = ScoredMap(C, one.quality.calibrated_score, one.quality.orientation, mirrored)
     return [scored[i] for i in range(len(maps))]
 

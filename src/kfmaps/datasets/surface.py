@@ -9,8 +9,8 @@ from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
 from kfmaps.geometry.cloud_surface import boundary_of_cells, circumcentres
-from kfmaps.geometry.connectivity import divide_faces
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_rows
+from kfmaps.geometry.subdivision import divide_faces
 from kfmaps.geometry.topology import topology
 
 _Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]

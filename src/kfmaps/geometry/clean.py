@@ -14,13 +14,13 @@ from scipy.spatial import KDTree
 from kfmaps.geometry.connectivity import (
     boundary_edges,
     component_labels,
-    divide_faces,
     proper_faces,
     renumbering,
     unique_vertices,
 )
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
-from kfmaps.geometry.mesh import Mesh, face_areas, vertex_normals
+from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.subdivision import interpolating_subdivision
 
 _MAX_SPECK_AREA = 0.005
 """Area of a component, over that of the largest, below which it is a speck: that of one of 200 samples."""
@@ -132,28 +132,32 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
     """Return a cleaned mesh whose faces are cut in four until there are ``count`` vertices; new ones come last.
 
-    New vertices lie on a smooth surface through the others (Phong tessellation, Boubekeur and Alexa 2008), since two
-    coarse meshes of one body have their edges elsewhere. They have the original number of an end of their edge.
+    New vertices lie on a smooth surface through the others, since two coarse meshes of one body have their edges
+    elsewhere. They have the original number of the nearest corner.
     """
-    smoothness = 0.75  # as proposed there
-    mesh, to_original, rows = part.mesh, part.to_original, part.faces_to_original
-    corners, turned = np.tile(np.eye(3), (len(mesh.faces), 1, 1)), part.turned
+    mesh, piece_of, corners = (
+        part.mesh,
+        np.arange(len(part.mesh.faces)),
+        np.tile(np.eye(3), (len(part.mesh.faces), 1, 1)),
+    )
     middle = 0.5 * np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]])
+    pieces = [*(np.stack([np.eye(3)[i], middle[i], middle[i - 1]]) for i in range(3)), middle]
     while len(mesh.vertices) < count:
-        edges, faces = divide_faces(mesh.faces, len(mesh.vertices))
-        ends, normals = mesh.vertices[edges], vertex_normals(mesh)[edges]
-        middles = ends.mean(axis=1)
-        heights = np.einsum("eki,eki->ek", middles[:, None] - ends, normals)  # over the planes that touch at the ends
-        middles -= smoothness * np.einsum("ek,eki->ei", heights, normals) / 2
-        vertices = np.concatenate([mesh.vertices, middles])
-        at_corners = [np.stack([np.eye(3)[i], middle[i], middle[i - 1]]) for i in range(3)]
-        pieces = np.einsum("pij,fjk->fpik", [*at_corners, middle], corners)
-        corners = np.concatenate([pieces[:, :3].reshape(-1, 3, 3), pieces[:, 3]])
-        parent = np.concatenate([np.repeat(np.arange(len(rows)), 3), np.arange(len(rows))])
-        rows, turned = rows[parent], None if turned is None else turned[parent]
-        to_original = np.concatenate([to_original, to_original[edges[:, 0]]])
-        mesh = Mesh(vertices, faces)
-    return replace(part, mesh=mesh, to_original=to_original, faces_to_original=rows, turned=turned, corners=corners)
+        mesh = interpolating_subdivision(mesh)
+        of_pieces = np.einsum("pij,fjk->fpik", pieces, corners)
+        corners = np.concatenate([of_pieces[:, :3].reshape(-1, 3, 3), of_pieces[:, 3]])
+        piece_of = np.concatenate([np.repeat(piece_of, 3), piece_of])
+    at = np.zeros(len(mesh.vertices), dtype=np.int64)  # for each vertex a face and its corner there
+    at[mesh.faces.ravel()] = np.arange(mesh.faces.size)
+    nearest = part.mesh.faces[piece_of[at // 3], corners.reshape(-1, 3)[at].argmax(axis=1)]
+    return replace(
+        part,
+        mesh=mesh,
+        to_original=part.to_original[nearest],
+        faces_to_original=part.faces_to_original[piece_of],
+        turned=None if part.turned is None else part.turned[piece_of],
+        corners=corners,
+    )
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:

@@ -53,19 +53,6 @@ def half_edges(faces: np.ndarray) -> np.ndarray:
     return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
 
 
-def divide_faces(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return ``faces (f, 3)`` cut in four at the middles of their edges.
-
-    ``n``: number of vertices. Returns the ends of the edges, (e, 2), whose middles are the vertices from ``n`` on; and
-    the faces, (4 f, 3): for each face the three at its corners, and after all these the ones in the middle.
-    """
-    a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edges, number = np.unique(np.minimum(a, b) * n + np.maximum(a, b), return_inverse=True)
-    across = n + number.reshape(-1, 3)  # the middle of the edge from corner i to corner i + 1
-    corners = np.stack([faces, across, across[:, [2, 0, 1]]], axis=2).reshape(-1, 3)
-    return np.stack([edges // n, edges % n], axis=1), np.concatenate([corners, across])
-
-
 def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the half-edges of ``faces (f, 3)`` on boundary edges and on edges of two faces.
 

@@ -18,6 +18,7 @@ from kfmaps._threads import limit_threads, one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional, to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
+from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.fmap.refine import Refined
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
@@ -60,14 +61,13 @@ class MatchTask:
     def result(self, points: np.ndarray, C: np.ndarray, local_confidence: np.ndarray, **fields: Any) -> Match:
         """Return the match of a point map of the cleaned shapes, with its functional map and local confidence."""
         k_t, k_s = C.shape
-        points = self.pair.given_points(points)
+        points, precise_map = self.pair.given_points(points), fields.get("precise_map")
+        if self.pair.is_divided and precise_map is not None:  # rounded once instead of twice
+            points = np.where(points < 0, -1, nearest_vertices(precise_map, self.meshes[0]))
         bases = [shape.basis.truncate(k) for shape, k in zip(self.pair.given, (k_s, k_t), strict=True)]
-        if self.pair.is_divided:
-            pulled = to_numpy(bases[0].functions)[np.maximum(points, 0)] * (points >= 0)[:, None]
-            C = to_numpy(bases[1].project(pulled))
         return Match(
             target_to_source=points,
-            functional_map=C,
+            functional_map=self.pair.given_functional_map(points, C),
             source=self.meshes[0],
             target=self.meshes[1],
             basis_source=bases[0],

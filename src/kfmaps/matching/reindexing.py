@@ -77,6 +77,18 @@ class VertexReindexing:
         """Return a point map in the other direction of the cleaned shapes, (m_s,), as one of the given ones, (n_s,)."""
         return self.clean_t.to_original[source_to_target][self.clean_s.to_clean]
 
+    def given_functional_map(self, points: np.ndarray, C: np.ndarray) -> np.ndarray:
+        """Return a functional map ``C (k_t, k_s)`` of the cleaned shapes as one of the given ones.
+
+        Where a mesh is divided, it is that of the given point map ``points (n_t,)``, −1 where there is none: functions
+        of the divided mesh are not those of the given one.
+        """
+        if not self.is_divided:
+            return C
+        bases = [shape.basis.truncate(k) for shape, k in zip(self.given, C.shape[::-1], strict=True)]
+        pulled = to_numpy(bases[0].functions)[np.maximum(points, 0)] * (points >= 0)[:, None]
+        return to_numpy(bases[1].project(pulled))
+
     def given_precise_map(self, places: PointMap) -> PointMap:
         """Return points in triangles of the cleaned source as points in triangles of the given one."""
         faces, weights, turned = self.clean_s.faces_to_original[places.faces], places.weights, self.clean_s.turned

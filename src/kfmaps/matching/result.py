@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from kfmaps._arrays import InvalidInput, check, like, refuse
 from kfmaps._threads import limit_threads
 from kfmaps.config import Config
-from kfmaps.fmap.convert import nearest_reached
+from kfmaps.fmap.convert import nearest_reached, to_functional
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, to_precise_map
 from kfmaps.fmap.transfer import transfer_functions
@@ -268,15 +268,18 @@ class Match:
         for name, mesh in (("source", self.source), ("target", self.target)):
             if len(mesh.faces) == 0:
                 raise refuse(name, "a surface with triangles", "a point cloud", "use target_to_source")
-        refine, columns, pair = self.config.refinement, None, reindexing(*pair.given)
+        refine, columns, C = self.config.refinement, None, self.functional_map
         bases = (pair.source.basis, pair.target.basis)
+        if pair.is_divided:
+            k_t, k_s = C.shape
+            C = to_functional(pair.clean_points(self.target_to_source), bases[0].truncate(k_s), bases[1].truncate(k_t))
         weight = getattr(refine, "descriptor_weight", 0.0)
         if weight and self.orientation != "reversing":
             guidance = descriptor_guidance(pair.source.shot, pair.target.shot)
             columns = guidance and guidance.embedding_columns(weight, *bases)
         faces = pair.source.mesh.faces
         with limit_threads(self.config.threads):
-            return pair.given_precise_map(to_precise_map(self.functional_map, *bases, faces, columns))
+            return pair.given_precise_map(to_precise_map(C, *bases, faces, columns))
 
     def precise_inverse(self) -> PointMap:
         """Return a point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.

@@ -1,0 +1,137 @@
+"""Subdivision, and matches of meshes with few vertices, which are divided for the search."""
+
+from dataclasses import replace
+
+import igl
+import numpy as np
+import pytest
+from scipy.spatial import KDTree
+
+import kfmaps
+from kfmaps.config import Config
+from kfmaps.geometry.clean import clean_mesh, divide_mesh, face_outward
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.subdivision import interpolating_subdivision, loop_matrix
+from kfmaps.matching.search import scoring_samples
+from kfmaps.shape import MIN_SEARCH_VERTICES, prepare
+
+GUARDS = ["geometry/subdivision.py"]
+
+
+def hexagons(size: int = 5) -> Mesh:
+    """A flat piece of the regular triangulation."""
+    i, j = (one.ravel() for one in np.meshgrid(np.arange(size), np.arange(size), indexing="ij"))
+    at = np.arange(size * size).reshape(size, size)
+    a, b, c, d = (one.ravel() for one in (at[:-1, :-1], at[1:, :-1], at[:-1, 1:], at[1:, 1:]))
+    faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([b, d, c], axis=1)])
+    return Mesh(np.stack([i + 0.5 * j, np.sqrt(0.75) * j, 0.0 * i], axis=1), faces)
+
+
+def test_weights_are_those_of_loop() -> None:
+    mesh = hexagons()
+    matrix, faces = loop_matrix(mesh.faces, 25)
+    rows = matrix.toarray()
+    np.testing.assert_allclose(rows.sum(axis=1), 1.0, atol=1e-15)
+    assert faces.shape == (4 * len(mesh.faces), 3)
+    inner = rows[12]  # the middle of the grid, of degree 6
+    assert inner[12] == pytest.approx(10 / 16)
+    np.testing.assert_allclose(np.sort(inner[inner > 0])[:-1], [1 / 16] * 6)
+    rim = rows[2]  # on the straight boundary
+    np.testing.assert_allclose(rim[[0, 1, 2, 3, 7]], [0, 1 / 8, 3 / 4, 1 / 8, 0])
+    counts = np.unique(np.round(np.sort(rows[25:], axis=1)[:, -4:], 6), axis=0)
+    np.testing.assert_allclose(counts, [[0, 0, 0.5, 0.5], [0.125, 0.125, 0.375, 0.375]])
+    triangle = loop_matrix(np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]), 4)[0].toarray()
+    np.testing.assert_allclose(triangle[0], [7 / 16, 3 / 16, 3 / 16, 3 / 16])  # of degree 3
+
+
+def test_new_vertices_lie_on_a_smooth_surface_through_the_others() -> None:
+    sphere = kfmaps.datasets.sphere(300)
+    finer = interpolating_subdivision(sphere)
+    np.testing.assert_array_equal(finer.vertices[:300], sphere.vertices)
+    radii = np.linalg.norm(finer.vertices[300:], axis=1)
+    assert np.abs(radii - 1).max() < 0.01
+    flat = interpolating_subdivision(hexagons())
+    np.testing.assert_allclose(flat.vertices[:, 2], 0.0, atol=1e-15)
+
+
+@pytest.mark.parametrize("inward", [False, True])
+def test_a_divided_mesh_knows_where_its_faces_come_from(inward: bool) -> None:
+    body = kfmaps.datasets.sphere(120)
+    given = Mesh(body.vertices, body.faces[:, ::-1]) if inward else body
+    part = face_outward(clean_mesh(given, specks=True))
+    assert (part.turned is not None) == inward
+    divided = divide_mesh(part, 1000)
+    assert len(divided.mesh.vertices) >= 1000
+    assert not divided.whole
+    assert len(divided.corners) == len(divided.mesh.faces) == 16 * len(body.faces)
+    np.testing.assert_array_equal(divided.to_original[:120], np.arange(120))
+    # Corners of pieces that are corners of the face itself are at its vertices; all others lie near its plane.
+    corners = part.mesh.vertices[part.mesh.faces[divided.faces_to_original]]
+    flat = np.einsum("fij,fjk->fik", divided.corners, corners)
+    pieces = divided.mesh.vertices[divided.mesh.faces]
+    distances = np.linalg.norm(pieces - flat, axis=2)
+    old = divided.mesh.faces < 120
+    np.testing.assert_allclose(distances[old], 0.0, atol=1e-12)
+    assert distances.max() < 0.1
+    np.testing.assert_allclose(divided.corners.sum(axis=2), 1.0)
+    # The nearest corner is at least as near along the face as the other two.
+    positions, numbers = divided.corners.reshape(-1, 3), divided.to_original[divided.mesh.faces].ravel()
+    own = part.mesh.faces[divided.faces_to_original].repeat(3, axis=0)
+    weights = np.where(own == numbers[:, None], positions, 0).max(axis=1)
+    on_face = (own == numbers[:, None]).any(axis=1)
+    np.testing.assert_allclose(weights[on_face], positions.max(axis=1)[on_face])
+
+
+@pytest.fixture(scope="module")
+def coarse() -> tuple[Mesh, Mesh, np.ndarray]:
+    """One body in two poses with 152 vertices each, meshed independently, and the true map."""
+    pair = kfmaps.datasets.two_poses(1500)
+
+    def simplified(mesh: Mesh) -> Mesh:
+        vertices, faces = map(np.asarray, igl.decimate(mesh.vertices, mesh.faces, 300)[:2])
+        return Mesh(vertices, faces.astype(np.int64))
+
+    source, target = simplified(pair.source), simplified(pair.target)
+    nearest = KDTree(pair.target.vertices).query(target.vertices)[1]
+    truth = KDTree(source.vertices).query(pair.source.vertices[pair.truth[nearest]])[1]
+    return source, target, np.asarray(truth)
+
+
+def test_meshes_of_few_vertices_are_matched_as_finer_ones(coarse) -> None:
+    source, target, truth = coarse
+    config = replace(Config(), threads=1)
+    found = kfmaps.match(source, target, config)
+    assert found.verdict == "sure"
+    assert found.target_to_source.shape == truth.shape
+    assert 100 * kfmaps.geodesic_errors(source, found.target_to_source, truth).mean() < 4
+    # All fields are those of the given meshes.
+    bases = found.basis_source, found.basis_target
+    np.testing.assert_allclose(found.functional_map, kfmaps.to_functional(found.target_to_source, *bases), atol=1e-12)
+    places = found.precise()
+    assert places.faces.max() < len(source.faces)
+    points = np.einsum("ni,nij->nj", places.weights, source.vertices[source.faces[places.faces]])
+    nearest = np.linalg.norm(points - source.vertices[found.target_to_source], axis=1)
+    np.testing.assert_allclose(nearest, KDTree(source.vertices).query(points)[0], rtol=0.5)
+    assert found.registration.registered_vertices.shape == source.vertices.shape
+    assert found.local_confidence.shape == (len(target.vertices),)
+    assert sum(found.energies().values()) < sum(found.energies(-found.functional_map).values())
+    shapes = prepare(source, config), prepare(target, config)
+    samples = scoring_samples(shapes[0], 0), scoring_samples(shapes[1], 0)
+    again = kfmaps.matching.match.match(*shapes, config, shape_samples=samples)
+    np.testing.assert_array_equal(again.target_to_source, found.target_to_source)
+    assert again.confidence == found.confidence
+
+
+def test_only_a_search_divides_meshes_and_only_small_surfaces(coarse) -> None:
+    source, _, _ = coarse
+    shape = prepare(source)
+    divided, record = shape.divided
+    assert len(divided.mesh.vertices) >= MIN_SEARCH_VERTICES > len(shape.mesh.vertices)
+    assert len(divided.basis.functions) == len(divided.shot) == len(divided.mesh.vertices)
+    assert record.corners is not None
+    assert kfmaps.geometry.mesh.surface_area(divided.mesh) == pytest.approx(1.0)
+    torus = kfmaps.datasets.torus(500)
+    fitted = kfmaps.match(torus, torus, Config.single_fit())
+    assert fitted._reindexing.is_identity
+    large = prepare(kfmaps.datasets.torus(1200))
+    assert large.divided[0] is large
