@@ -1,13 +1,15 @@
 """Animals of a game, artists' meshes of kinds that no number was chosen on.
 
     python benchmarks/game_animals.py --data DIR [--kinds fox,bear] [--first 0] [--pairs 2]
+    python benchmarks/game_animals.py --data DIR --coarse
     python benchmarks/game_animals.py --data DIR --across 60 [--first 0]
 
 DIR is the folder ``art`` of the data of 0 A.D. (Wildfire Games, CC BY-SA 3.0; the file ``public.zip`` of Debian's
 package 0ad-data 0.0.26, unpacked). Each animal of ``actors/fauna`` has one mesh, of 100 to 1,700 triangles, and poses
 of its skeleton. Its largest piece is posed, subdivided (Loop 1987), and simplified where it is an oriented manifold;
 otherwise its vertices are shuffled. Poses of one animal have an exact truth. Of every second pair the second pose is
-the one of 20 that is farthest from the first, otherwise the median.
+the one of 20 that is farthest from the first, otherwise the median. ``--coarse`` leaves the meshes as they are, with
+shuffled vertices.
 
 ``--across N``: animals of two kinds instead, whose parts are told by where they are while the animal stands: of the
 target's vertices near the ground, for which share the source's vertex is on the same side, and at the same end.
@@ -33,6 +35,7 @@ from scipy.spatial.transform import Rotation
 
 import kfmaps
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.subdivision import loop_matrix
 
 FOUR_LEGGED = [
     "camel",
@@ -169,32 +172,8 @@ def edges_of(faces: np.ndarray) -> np.ndarray:
     return np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
 
 
-def subdivided(values: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Values at vertices (n, c), and faces, by Loop's scheme, one step."""
-    n = len(values)
-    edges, edge, count = np.unique(edges_of(faces), axis=0, return_inverse=True, return_counts=True)
-    inner, edge = count == 2, edge.ravel()
-    middles = np.where(inner, 3 / 8, 1 / 2)[:, None] * (values[edges[:, 0]] + values[edges[:, 1]])
-    np.add.at(middles, edge, np.where(inner[edge], 1 / 8, 0)[:, None] * values[faces[:, [2, 0, 1]].T.ravel()])
-
-    def around(some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        ends = np.concatenate([some, some[:, ::-1]])
-        graph = sp.coo_matrix((np.ones(len(ends)), ends.T), (n, n)).tocsr()
-        return np.maximum(np.asarray(graph.sum(axis=1)), 1), graph @ values
-
-    degree, total = around(edges)
-    rim_degree, rim = around(edges[~inner])
-    beta = np.where(degree == 3, 3 / 16, 3 / (8 * degree))
-    on_rim = np.isin(np.arange(n), edges[~inner])[:, None]
-    moved = np.where(on_rim, 3 / 4 * values + rim / (4 * rim_degree), (1 - degree * beta) * values + beta * total)
-    a, b, c = edge.reshape(3, -1) + n
-    x, y, z = faces.T
-    parts = [np.c_[x, a, c], np.c_[y, b, a], np.c_[z, c, b], np.c_[a, b, c]]
-    return np.concatenate([moved, middles]), np.concatenate(parts)
-
-
 def meshed(
-    animal: Animal, posed: np.ndarray, n_faces: int, rng: np.random.Generator
+    animal: Animal, posed: np.ndarray, n_faces: int, rng: np.random.Generator, coarse: bool = False
 ) -> tuple[Mesh, np.ndarray, np.ndarray, np.ndarray]:
     """A mesh of its own of an animal as it is ``posed (n, 3)``, turned and in another unit.
 
@@ -202,11 +181,13 @@ def meshed(
     any other pose; and the subdivided standing animal, (q, 3).
     """
     values, faces = np.c_[posed, animal.standing()], animal.faces
-    while len(faces) < FACES:
-        values, faces = subdivided(values, faces)
+    while len(faces) < FACES and not coarse:
+        matrix, faces = loop_matrix(faces, len(values))
+        values = matrix @ values
     pose, standing = values[:, :3], values[:, 3:]
     directed = np.concatenate([animal.faces[:, [i, i - 1]] for i in range(3)])
-    if np.all(igl.is_vertex_manifold(animal.faces)) and len(np.unique(directed, axis=0)) == len(directed):
+    is_oriented = len(np.unique(directed, axis=0)) == len(directed)
+    if is_oriented and np.all(igl.is_vertex_manifold(animal.faces)) and not coarse:
         own, triangles = map(np.asarray, igl.decimate(pose, faces, n_faces)[:2])
     else:  # on others igl.decimate fails or never ends
         order = rng.permutation(len(pose))
@@ -245,12 +226,12 @@ def found_by(source: Mesh, target: Mesh) -> tuple[kfmaps.Match, np.ndarray, str]
     return found, found.target_to_source >= 0, f"{told:18} {time.process_time() - begun:6.1f}"
 
 
-def in_two_poses(name: str, animal: Animal, number: int) -> tuple[bool, bool]:
+def in_two_poses(name: str, animal: Animal, number: int, coarse: bool) -> tuple[bool, bool]:
     """Print how one animal is matched to itself; return whether that is right, and sure."""
     rng = np.random.default_rng([number, *name.encode()])
     first, second = poses(animal, number, rng)
-    source, own_s, pose_s, _ = meshed(animal, first, FACES, rng)
-    target, own_t, pose_t, _ = meshed(animal, second, FACES - 1000, rng)
+    source, own_s, pose_s, _ = meshed(animal, first, FACES, rng, coarse)
+    target, own_t, pose_t, _ = meshed(animal, second, FACES - 1000, rng, coarse)
     truth = KDTree(own_s).query(pose_s[KDTree(pose_t).query(own_t)[1]])[1]
     found, known, told = found_by(source, target)
     errors = 100 * kfmaps.geodesic_errors(source, found.target_to_source[known], np.asarray(truth)[known])
@@ -285,6 +266,7 @@ def main() -> None:
     parser.add_argument("--kinds", default="", help="names of meshes; all that have more than one pose if not given")
     parser.add_argument("--pairs", type=int, default=2, help="of each kind")
     parser.add_argument("--first", type=int, default=0, help="number of the first pair")
+    parser.add_argument("--coarse", action="store_true", help="the artists' meshes themselves")
     parser.add_argument("--across", type=int, default=0, help="pairs of two kinds instead")
     arguments = parser.parse_args()
     files = read_animals(arguments.data)
@@ -302,7 +284,7 @@ def main() -> None:
         print(f"{'animal':24} pair   error  unmatched  verdict             CPU s")
         for name, animal in animals.items():
             for number in range(arguments.first, arguments.first + arguments.pairs):
-                rows.append(in_two_poses(name, animal, number))
+                rows.append(in_two_poses(name, animal, number, arguments.coarse))
     right, sure = np.array(rows).T
     print(f"{len(rows)} maps, {right.sum()} right; {sure.sum()} sure, {(sure & ~right).sum()} of them wrong")
 

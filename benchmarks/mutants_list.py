@@ -1079,6 +1079,20 @@ MUTANTS = tuple(
         ),
         ("self.weight * stiffness * self.discs", "self.weight * self.discs", "test_landmark_evidence -k from_afar"),
         ("correction[i, i] += 1.5", "correction[i, i] += 1.4", "test_nonrigid -k singular_values"),
+        # meshes of few vertices
+        ("np.where(is_crease, 1 / 2, 3 / 8)", "np.where(is_crease, 1 / 2, 1 / 4)", "test_subdivision -k weights"),
+        ("np.where(degree == 3, 3 / 16,", "np.where(degree == 3, 1 / 8,", "test_subdivision -k weights"),
+        ("control + mesh.vertices - (matrix @ control)[:n]", "mesh.vertices", "test_subdivision -k smooth"),
+        ("np.repeat(piece_of, 3), piece_of]", "piece_of, np.repeat(piece_of, 3)]", "test_subdivision -k come_from"),
+        ("np.stack([np.eye(3)[i], middle[i], middle[i - 1]])", "np.eye(3)", "test_subdivision -k come_from"),
+        (
+            '"ni,nij->nj", weights, self.clean_s.corners',
+            '"nj,nij->ni", weights, self.clean_s.corners',
+            "test_subdivision",
+        ),
+        ("if not self.is_divided:\n            return C", "if True:\n            return C", "test_subdivision"),
+        ("mesh=unit_area(cleaned.mesh))", "mesh=cleaned.mesh)", "test_subdivision -k only_a_search"),
+        ("len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES\n", "True\n", "test_subdivision -k few_vertices"),
         # whether a part is a whole with holes
         ("detection.opening <= SCORE.part.max_hole_opening", "detection.opening > 0", "test_parts -k unsure_part"),
         ("(second.confidence or 0.0) > (first.confidence or 0.0)", "True", "test_parts -k unsure_part"),

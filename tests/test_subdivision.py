@@ -15,7 +15,7 @@ from kfmaps.geometry.subdivision import interpolating_subdivision, loop_matrix
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import MIN_SEARCH_VERTICES, prepare
 
-GUARDS = ["geometry/subdivision.py"]
+GUARDS = ("kfmaps.geometry.subdivision", "kfmaps.geometry.clean", "kfmaps.matching.reindexing")
 
 
 def hexagons(size: int = 5) -> Mesh:

@@ -31,7 +31,7 @@ class CleanedMesh:
     """A cleaned mesh of ``m`` vertices and the numbers of its ``n`` original ones; made by :func:`clean_mesh`."""
 
     mesh: Mesh  # Its faces have three different corners. The given mesh itself where there is nothing to clean.
-    to_original: np.ndarray  # (m,): original number of each vertex, ascending; the first of welded ones
+    to_original: np.ndarray  # (m,): original number of each vertex, ascending; the first of welded vertices
     to_clean: np.ndarray  # (n,): cleaned number of each original vertex
     unreferenced: np.ndarray  # (n,) bool: original vertices that no face uses; they have the number of the nearest
     faces_to_original: np.ndarray  # (g,): original number of each face, ascending
@@ -135,11 +135,8 @@ def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
     New vertices lie on a smooth surface through the others, since two coarse meshes of one body have their edges
     elsewhere. They have the original number of the nearest corner.
     """
-    mesh, piece_of, corners = (
-        part.mesh,
-        np.arange(len(part.mesh.faces)),
-        np.tile(np.eye(3), (len(part.mesh.faces), 1, 1)),
-    )
+    mesh, piece_of = part.mesh, np.arange(len(part.mesh.faces))
+    corners = np.tile(np.eye(3), (len(piece_of), 1, 1))
     middle = 0.5 * np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]])
     pieces = [*(np.stack([np.eye(3)[i], middle[i], middle[i - 1]]) for i in range(3)), middle]
     while len(mesh.vertices) < count:

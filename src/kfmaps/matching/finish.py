@@ -110,7 +110,10 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         registered = pair.given_registered(registered * MIRROR if found.orientation == "reversing" else registered)
     if precise_map is not None:
         precise_map = pair.given_precise_map(precise_map) if len(task.meshes[0].faces) else None
-    raw, back_points = refined.raw_target_to_source, refined.source_to_target
+    raw, back_points, back_map = refined.raw_target_to_source, refined.source_to_target, refined.functional_map_back
+    if back_points is not None:
+        back_points = pair.given_points_back(back_points)
+        back_map = None if back_map is None else pair.given_functional_map(back_points, back_map, back=True)
     torn_area = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
     is_refused = final.fit is not None and not final.fit.accepted
     confidence, verdict = lower_by_registration(found.confidence, found.verdict, torn_area, is_refused)
@@ -123,8 +126,8 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         orientation=found.orientation,
         precise_map=precise_map,
         alternatives=tuple(pair.given_points(points) for points in found.alternatives),
-        source_to_target=None if back_points is None else pair.given_points_back(back_points),
-        functional_map_back=refined.functional_map_back,
+        source_to_target=back_points,
+        functional_map_back=back_map,
         score=MatchScore(
             found.scores,
             found.quality,

@@ -77,15 +77,16 @@ class VertexReindexing:
         """Return a point map in the other direction of the cleaned shapes, (m_s,), as one of the given ones, (n_s,)."""
         return self.clean_t.to_original[source_to_target][self.clean_s.to_clean]
 
-    def given_functional_map(self, points: np.ndarray, C: np.ndarray) -> np.ndarray:
+    def given_functional_map(self, points: np.ndarray, C: np.ndarray, back: bool = False) -> np.ndarray:
         """Return a functional map ``C (k_t, k_s)`` of the cleaned shapes as one of the given ones.
 
         Where a mesh is divided, it is that of the given point map ``points (n_t,)``, −1 where there is none: functions
-        of the divided mesh are not those of the given one.
+        of the divided mesh are not those of the given one. ``back``: both lead from the target to the source.
         """
         if not self.is_divided:
             return C
-        bases = [shape.basis.truncate(k) for shape, k in zip(self.given, C.shape[::-1], strict=True)]
+        shapes = self.given[::-1] if back else self.given
+        bases = [shape.basis.truncate(k) for shape, k in zip(shapes, C.shape[::-1], strict=True)]
         pulled = to_numpy(bases[0].functions)[np.maximum(points, 0)] * (points >= 0)[:, None]
         return to_numpy(bases[1].project(pulled))
 

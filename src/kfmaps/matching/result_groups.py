@@ -104,7 +104,8 @@ class MatchFit:
     ----------
     raw_functional_map : (k, k) float64
         What the refinement started from: the minimiser of one fit, or the best candidate of a search. ``None`` of a
-        part, and where a file does not hold it.
+        part, and where a file does not hold it. A search takes functions of the divided mesh where one has fewer than
+        1,000 vertices.
     raw_target_to_source : (n_t,) int64 or None
         Its point map; a search does not compute it.
     size : int or None
