@@ -272,7 +272,7 @@ def main() -> None:
     files = read_animals(arguments.data)
     kinds = arguments.kinds.split(",") if arguments.kinds else sorted(files)
     animals = {name: read_animal(arguments.data, *files[name]) for name in kinds}
-    animals = {name: animal for name, animal in animals.items() if animal.poses and len(animal.faces) > 100}
+    animals = {name: animal for name, animal in animals.items() if animal.poses and len(animal.vertices) > 100}
     rows = []
     if arguments.across:
         print(f"{'source':22} {'target':22} pair   side    end   verdict             CPU s")

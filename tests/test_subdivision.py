@@ -10,8 +10,9 @@ from scipy.spatial import KDTree
 import kfmaps
 from kfmaps.config import Config
 from kfmaps.geometry.clean import clean_mesh, divide_mesh, face_outward
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.geometry.subdivision import interpolating_subdivision, loop_matrix
+from kfmaps.matching.match import match
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import MIN_SEARCH_VERTICES, prepare
 
@@ -63,6 +64,7 @@ def test_a_divided_mesh_knows_where_its_faces_come_from(inward: bool) -> None:
     divided = divide_mesh(part, 1000)
     assert len(divided.mesh.vertices) >= 1000
     assert not divided.whole
+    assert divided.corners is not None
     assert len(divided.corners) == len(divided.mesh.faces) == 16 * len(body.faces)
     np.testing.assert_array_equal(divided.to_original[:120], np.arange(120))
     # Corners of pieces that are corners of the face itself are at its vertices; all others lie near its plane.
@@ -112,12 +114,14 @@ def test_meshes_of_few_vertices_are_matched_as_finer_ones(coarse) -> None:
     points = np.einsum("ni,nij->nj", places.weights, source.vertices[source.faces[places.faces]])
     nearest = np.linalg.norm(points - source.vertices[found.target_to_source], axis=1)
     np.testing.assert_allclose(nearest, KDTree(source.vertices).query(points)[0], rtol=0.5)
-    assert found.registration.registered_vertices.shape == source.vertices.shape
+    registered = found.registration.registered_vertices
+    assert registered is not None
+    assert registered.shape == source.vertices.shape
     assert found.local_confidence.shape == (len(target.vertices),)
     assert sum(found.energies().values()) < sum(found.energies(-found.functional_map).values())
     shapes = prepare(source, config), prepare(target, config)
     samples = scoring_samples(shapes[0], 0), scoring_samples(shapes[1], 0)
-    again = kfmaps.matching.match.match(*shapes, config, shape_samples=samples)
+    again = match(*shapes, config, shape_samples=samples)
     np.testing.assert_array_equal(again.target_to_source, found.target_to_source)
     assert again.confidence == found.confidence
 
@@ -127,11 +131,13 @@ def test_only_a_search_divides_meshes_and_only_small_surfaces(coarse) -> None:
     shape = prepare(source)
     divided, record = shape.divided
     assert len(divided.mesh.vertices) >= MIN_SEARCH_VERTICES > len(shape.mesh.vertices)
-    assert len(divided.basis.functions) == len(divided.shot) == len(divided.mesh.vertices)
     assert record.corners is not None
-    assert kfmaps.geometry.mesh.surface_area(divided.mesh) == pytest.approx(1.0)
+    assert divided.shot is not None
+    assert len(divided.basis.functions) == len(divided.shot) == len(divided.mesh.vertices)
+    assert surface_area(divided.mesh) == pytest.approx(1.0)
     torus = kfmaps.datasets.torus(500)
     fitted = kfmaps.match(torus, torus, Config.single_fit())
+    assert fitted._reindexing is not None
     assert fitted._reindexing.is_identity
     large = prepare(kfmaps.datasets.torus(1200))
     assert large.divided[0] is large

@@ -95,9 +95,9 @@ class Shape:
 
     @cached_property
     def divided(self) -> tuple[Shape, CleanedMesh]:
-        """:attr:`cleaned`, with its faces divided until there are :data:`MIN_SEARCH_VERTICES` where it has fewer.
+        """:attr:`cleaned`; a surface of fewer than 1,000 vertices is divided until it has as many.
 
-        A search compares samples of the vertices, and these are too few on a template of a game, say.
+        A search compares that many samples. See :func:`kfmaps.geometry.clean.divide_mesh`.
         """
         shape, cleaned = self.cleaned
         if len(shape.mesh.faces) == 0 or len(shape.mesh.vertices) >= MIN_SEARCH_VERTICES:

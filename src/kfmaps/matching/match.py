@@ -10,7 +10,8 @@
 4. Where distances around many vertices are not preserved by the result, other candidates of the search are finished
    too, and the best is kept.
 5. The most probable match is returned. Where a part was suspected and no match is sure, the match with the other shape
-   as the part is tried last and, where both are open, that with both as parts of something larger.
+   as the part is tried last and, where both are open, that with both as parts of something larger. Neither is tried
+   where boundaries, or a match as wholes that deforms little, show that hardly anything is missing.
 
 Where the settings state which shape is a part, that is tried first, and the rest where it is not sure.
 """
