@@ -27,13 +27,12 @@ from pathlib import Path
 
 import igl
 import numpy as np
-import scipy.sparse as sp
 from automatic import RIGHT
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 import kfmaps
+from kfmaps.geometry.connectivity import component_labels, half_edges
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.subdivision import loop_matrix
 
@@ -155,21 +154,14 @@ def largest_manifold_piece(vertices: np.ndarray, faces: np.ndarray) -> tuple[np.
     faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
     faces = faces[np.unique(np.sort(faces, axis=1), axis=0, return_index=True)[1]]
     while True:
-        _, edge, count = np.unique(edges_of(faces), axis=0, return_inverse=True, return_counts=True)
+        _, edge, count = np.unique(np.sort(half_edges(faces), axis=1), axis=0, return_inverse=True, return_counts=True)
         excess = (count > 2)[edge.ravel()].reshape(3, -1).sum(axis=0)
         if not excess.any():
             break
         faces = np.delete(faces, excess.argmax(), axis=0)
-    ends = edges_of(faces)
-    graph = sp.coo_matrix((np.ones(len(ends)), ends.T), (len(first), len(first)))
-    piece = connected_components(graph, directed=False)[1][faces[:, 0]]
+    piece = component_labels(len(first), *half_edges(faces).T)[1][faces[:, 0]]
     kept, renumbered = np.unique(faces[piece == np.bincount(piece).argmax()], return_inverse=True)
     return first[kept], renumbered.reshape(-1, 3)
-
-
-def edges_of(faces: np.ndarray) -> np.ndarray:
-    """The three edges of each face, (3 m, 2), sorted."""
-    return np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
 
 
 def meshed(
@@ -185,7 +177,7 @@ def meshed(
         matrix, faces = loop_matrix(faces, len(values))
         values = matrix @ values
     pose, standing = values[:, :3], values[:, 3:]
-    directed = np.concatenate([animal.faces[:, [i, i - 1]] for i in range(3)])
+    directed = half_edges(animal.faces)
     is_oriented = len(np.unique(directed, axis=0)) == len(directed)
     if is_oriented and np.all(igl.is_vertex_manifold(animal.faces)) and not coarse:
         own, triangles = map(np.asarray, igl.decimate(pose, faces, n_faces)[:2])
@@ -263,7 +255,9 @@ def across(names: tuple[str, str], animals: tuple[Animal, Animal], number: int) 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--kinds", default="", help="names of meshes; all that have more than one pose if not given")
+    parser.add_argument(
+        "--kinds", default="", help="names of meshes; all with poses and more than 100 vertices if not given"
+    )
     parser.add_argument("--pairs", type=int, default=2, help="of each kind")
     parser.add_argument("--first", type=int, default=0, help="number of the first pair")
     parser.add_argument("--coarse", action="store_true", help="the artists' meshes themselves")

@@ -401,15 +401,7 @@ def fake_match(word: str, confidence: float, scale: float = 0.7, energy: float |
         ("ambiguous", 0.7, 0.3, "none", "ambiguous, deformed little", "whole", ["whole", "part"]),
         ("ambiguous", 0.4, 0.06, "auto", "likely", "whole", ["clear at any scale", "whole"]),
         ("likely", 0.7, 0.06, "auto", "likely", "part", ["clear at any scale", "whole"]),
-        (
-            "none clear",
-            0.7,
-            0.06,
-            "auto",
-            "sure",
-            "whole",
-            ["clear at any scale", "whole"],
-        ),  # the full search is spared
+        ("none clear", 0.7, 0.06, "auto", "sure", "whole", ["clear at any scale", "whole"]),
         ("none clear", 0.7, 0.06, "auto", "likely", "part", ["clear at any scale", "whole", "part"]),
         ("none clear", 0.4, 0.06, "auto", "likely", "whole", ["clear at any scale", "whole", "part"]),
         ("ambiguous", 0.4, 0.3, "auto", "sure", "part", ["part"]),  # too much is missing for a whole

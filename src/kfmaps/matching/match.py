@@ -72,7 +72,8 @@ def match(
     """
     config = config or Config()
     prepared = prepare_both(source, target, config, progress=progress)
-    pair = reindexing(prepared[0], prepared[1], divided=config.search is not None)
+    with limit_threads(config.threads):
+        pair = reindexing(prepared[0], prepared[1], divided=config.search is not None)
     pairs = check_landmark_pairs(landmarks, *pair.given)
     clean_landmarks = pair.clean_landmarks(pairs if len(pairs) else None)
     descriptors = pair.clean_descriptors(descriptors)
