@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from kfmaps.matching.candidates import by_score, compose_with_symmetries, rerefine, score_maps
 from kfmaps.matching.landmark_conflicts import rank_by_surface, without_landmark_errors
 from kfmaps.matching.ranking import ProxyCache, ranking
@@ -22,7 +24,9 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     With the setting "auto", maps to the mirror image are registered only where the best map ``deforms_too_much`` or
     where one of them has a better score before registration. One that is clearly better replaces the best map, and so
     does one that is better and hardly deforms the shape, unless the state forbids it
-    (:attr:`~kfmaps.matching.search_state.SearchState.may_reverse`). Any other that is better becomes a doubt.
+    (:attr:`~kfmaps.matching.search_state.SearchState.may_reverse`) or a map that keeps orientation preserves distances
+    nearly as well: then the shape is nearly its own mirror image, and the poses may be mirrored, as those of a walk.
+    Any other that is better becomes a doubt.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
@@ -52,12 +56,19 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     is_close = image.unregistered.score - state.ranked[0].unregistered.score < SCORE.close_margin
     margin = SCORE.close_mirror_margin if is_close else SCORE.mirror_margin
     margin = SCORE.mirror_gain if is_congruent else margin
-    if gain > (margin if is_auto else SCORE.clear_margin) and (state.may_reverse or not is_auto):
+    may_reverse = not is_auto or (state.may_reverse and not _is_preserved_as_well(image, state.candidates))
+    if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:
         samples = replace(samples, fine=mirrored)
         return replace(
             state, samples=samples, proxies=proxies, candidates=images, ranked=ranked, orientation="reversing"
         )
     return replace(state, doubts=((image, -gain),)) if is_auto and gain > SCORE.mirror_gain else state
+
+
+def _is_preserved_as_well(image: Candidate, found: list[Candidate]) -> bool:
+    """Return whether one of the maps that keep orientation is nearly as isometric as that to the mirror image."""
+    kept = [c.quality.isometry_score for c in found if c.quality.orientation > 0.5]
+    return image.quality.isometry_score - max(kept, default=-np.inf) < SCORE.isometry_margin
 
 
 def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:

@@ -231,6 +231,10 @@ class Scoring:
     close_mirror_margin: float = 9.0
     """The same where the map that preserves orientation is about as good except for its deformation energy: one turned
     limb has cost up to 8.5."""
+    isometry_margin: float = 0.8
+    """Difference in :attr:`Quality.isometry_score` between a map to the mirror image and the best that keeps orientation
+    below which the shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, mirrored brackets and
+    bodies without symmetry 1.1 and more (research/verdict.md)."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011
@@ -302,6 +306,11 @@ class Quality:
     def calibrated_score(self) -> float:
         """The score without the reflection error, which depends on how exactly the reflections are known."""
         return quality_score(replace(self, reflection_error=0.0))
+
+    @property
+    def isometry_score(self) -> float:
+        """The score without orientation, reflection and SHOT, all of which differ between a pose and its mirror image."""
+        return quality_score(replace(self, orientation=0.0, descriptors=0.0, reflection_error=0.0))
 
 
 @dataclass(frozen=True, eq=False)
