@@ -787,8 +787,8 @@ MUTANTS = tuple(
             "test_landmark_evidence -k left_for_right",
         ),
         (
-            " and (state.may_reverse or not is_auto)",
-            "",
+            "(state.may_reverse and advantage > 0)",
+            "advantage > 0",
             "test_symmetries -k mirror_image",
         ),
         (
@@ -870,6 +870,9 @@ MUTANTS = tuple(
             "test_alternating_registration -k before_mirror_images",
         ),
         ("SCORE.close_mirror_margin if is_close else", "", "test_search -k told_from_a_kept"),
+        ("(state.may_reverse and advantage > 0)", "state.may_reverse", "test_symmetries -k mirrored_pose"),
+        ("if is_auto and not is_congruent else ()", "[:0]", "test_extremities -k unasked"),
+        ("orientation=0.0, descriptors=0.0", "orientation=0.0", "test_symmetries -k mirrored_pose"),
         ("between[i, j] < between[i, partner[j]]", "True", "test_symmetries -k together"),
         ("if i < min(partner[i], partner[j])", "if partner[i] != i", "test_symmetries -k together"),
         (

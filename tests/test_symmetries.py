@@ -10,10 +10,12 @@ from scipy.spatial.transform import Rotation
 
 from conftest import NO_LANDMARKS, SMALL
 from kfmaps import Mesh
-from kfmaps.datasets import two_poses
+from kfmaps.datasets import posed_pair, two_poses
+from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_points
+from kfmaps.geometry.mesh import mirror_mesh
 from kfmaps.geometry.sampling import SpectralSamples
 from kfmaps.matching import candidates as candidates_module
 from kfmaps.matching import orientation, search, search_result
@@ -196,6 +198,25 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(symmetric, unmarked, m
     led = orientation.choose_orientation(replace(blind, may_reverse=False), deforms_too_much=True)
     assert led.orientation == "preserving"
     assert [one.name for one, margin in led.doubts if margin < 0.0] == ["image"]
+
+
+def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(monkeypatch):
+    """As in the two halves of a walk: the map that exchanges left and right hardly deforms the body."""
+    posed = posed_pair("walk", Body(SYMMETRIC), WAVE, WAVE, (1500, 1600), np.random.default_rng(0), mirror=True)
+    source, target = (prepare(mesh, SMALL) for mesh in (posed.source, mirror_mesh(posed.target)))
+    ways, verdicts = [], []
+    for margin in (SCORE.isometry_margin, 0.0):
+        numbers = replace(SCORE, mirror_margin=0.0, close_mirror_margin=0.0, isometry_margin=margin)
+        monkeypatch.setattr(orientation, "SCORE", numbers)
+        found = search_map(source, target, SMALL)
+        ways.append(found.orientation)
+        verdicts.append(found.verdict)
+        points = to_points(found.functional_map, source.basis, target.basis)
+        true = posed.mirrored if found.orientation == "preserving" else posed.truth
+        error = np.linalg.norm(source.mesh.vertices[points] - source.mesh.vertices[true], axis=1).mean()
+        assert error < 0.05
+    assert ways == ["preserving", "reversing"]
+    assert verdicts[0] == "ambiguous"
 
 
 def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, monkeypatch):

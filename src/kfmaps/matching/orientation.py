@@ -26,7 +26,8 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     does one that is better and hardly deforms the shape, unless the state forbids it
     (:attr:`~kfmaps.matching.search_state.SearchState.may_reverse`) or a map that keeps orientation preserves distances
     nearly as well: then the shape is nearly its own mirror image, and the poses may be mirrored, as those of a walk.
-    Any other that is better becomes a doubt.
+    Any other that is better becomes a doubt. So does the best map where it is replaced, unless the shapes are
+    congruent: of two poses of a person in a robe, one mirrored, none that keeps orientation does so as well.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
@@ -56,19 +57,27 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     is_close = image.unregistered.score - state.ranked[0].unregistered.score < SCORE.close_margin
     margin = SCORE.close_mirror_margin if is_close else SCORE.mirror_margin
     margin = SCORE.mirror_gain if is_congruent else margin
-    may_reverse = not is_auto or (state.may_reverse and not _is_preserved_as_well(image, state.candidates))
+    advantage = _isometry_advantage(image, state.candidates) - SCORE.isometry_margin
+    may_reverse = not is_auto or (state.may_reverse and advantage > 0)
     if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:
+        doubts = ((state.ranked[0], advantage),) if is_auto and not is_congruent else ()
         samples = replace(samples, fine=mirrored)
         return replace(
-            state, samples=samples, proxies=proxies, candidates=images, ranked=ranked, orientation="reversing"
+            state,
+            samples=samples,
+            proxies=proxies,
+            candidates=images,
+            ranked=ranked,
+            orientation="reversing",
+            doubts=doubts,
         )
     return replace(state, doubts=((image, -gain),)) if is_auto and gain > SCORE.mirror_gain else state
 
 
-def _is_preserved_as_well(image: Candidate, found: list[Candidate]) -> bool:
-    """Return whether one of the maps that keep orientation is nearly as isometric as that to the mirror image."""
+def _isometry_advantage(image: Candidate, found: list[Candidate]) -> float:
+    """Return by how much the map to the mirror image is more isometric than all maps that keep orientation."""
     kept = [c.quality.isometry_score for c in found if c.quality.orientation > 0.5]
-    return image.quality.isometry_score - max(kept, default=-np.inf) < SCORE.isometry_margin
+    return image.quality.isometry_score - max(kept, default=-np.inf)
 
 
 def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:

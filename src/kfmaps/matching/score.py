@@ -232,9 +232,9 @@ class Scoring:
     """The same where the map that preserves orientation is about as good except for its deformation energy: one turned
     limb has cost up to 8.5."""
     isometry_margin: float = 0.8
-    """Difference in :attr:`Quality.isometry_score` between a map to the mirror image and the best that keeps orientation
-    below which the shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, mirrored brackets and
-    bodies without symmetry 1.1 and more (research/verdict.md)."""
+    """Difference in :attr:`Quality.isometry_score` between a map to the mirror image and the best that keeps
+    orientation below which a shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, mirrored
+    brackets and bodies without symmetry 1.1 and more (research/verdict.md)."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011
@@ -309,7 +309,7 @@ class Quality:
 
     @property
     def isometry_score(self) -> float:
-        """The score without orientation, reflection and SHOT, all of which differ between a pose and its mirror image."""
+        """The score without orientation, reflection and SHOT, in which a pose and its mirror image differ."""
         return quality_score(replace(self, orientation=0.0, descriptors=0.0, reflection_error=0.0))
 
 
