@@ -1,8 +1,9 @@
-"""Animals of a game, artists' meshes of kinds that no number was chosen on.
+"""Animals and people of a game, artists' meshes that no number was chosen on, but for half of the people.
 
     python benchmarks/game_animals.py --data DIR [--kinds fox,bear] [--first 0] [--pairs 2]
     python benchmarks/game_animals.py --data DIR --coarse
     python benchmarks/game_animals.py --data DIR --across 60 [--first 0]
+    python benchmarks/game_animals.py --data DIR --walking [--first 0]
 
 DIR is the folder ``art`` of the data of 0 A.D. (Wildfire Games, CC BY-SA 3.0; the file ``public.zip`` of Debian's
 package 0ad-data 0.0.26, unpacked). Each animal of ``actors/fauna`` has one mesh, of 100 to 1,700 triangles, and poses
@@ -13,6 +14,9 @@ shuffled vertices.
 
 ``--across N``: animals of two kinds instead, whose parts are told by where they are while the animal stands: of the
 target's vertices near the ground, for which share the source's vertex is on the same side, and at the same end.
+
+``--walking``: dressed people without heads instead, of ``meshes/skeletal/new``, half a period of a walk or a run apart,
+so that the second pose is nearly the mirror image of the first.
 """
 
 from __future__ import annotations
@@ -114,6 +118,14 @@ def read_animals(data: Path) -> dict[str, tuple[Path, set[str]]]:
             if file.exists():
                 found.setdefault(Path(mesh).stem, (file, set()))[1].update(names)
     return found
+
+
+def read_people(data: Path) -> dict[str, tuple[Path, set[str]]]:
+    """The same of people."""
+    folder = data / "animation"
+    names = {str(p.relative_to(folder)).removesuffix(".cached.psa") for p in (folder / "biped").rglob("*.cached.psa")}
+    files = sorted((data / "meshes" / "skeletal" / "new").glob("*.pmd"))
+    return {file.name.removesuffix(".dae.cached.pmd"): (file, names) for file in files}
 
 
 def read_animal(data: Path, file: Path, animations: set[str]) -> Animal:
@@ -218,10 +230,18 @@ def found_by(source: Mesh, target: Mesh) -> tuple[kfmaps.Match, np.ndarray, str]
     return found, found.target_to_source >= 0, f"{told:18} {time.process_time() - begun:6.1f}"
 
 
-def in_two_poses(name: str, animal: Animal, number: int, coarse: bool) -> tuple[bool, bool]:
+def half_a_period(animal: Animal, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Two poses of somebody who walks or runs, (n, 3) each, half a period apart."""
+    walks = [frames for name, frames in animal.poses.items() if "walk" in name or "run" in name]
+    frames = walks[rng.integers(len(walks))]
+    at = rng.integers(len(frames))
+    return animal.posed(frames[at]), animal.posed(frames[(at + len(frames) // 2) % len(frames)])
+
+
+def in_two_poses(name: str, animal: Animal, number: int, arguments: argparse.Namespace) -> tuple[bool, bool]:
     """Print how one animal is matched to itself; return whether that is right, and sure."""
-    rng = np.random.default_rng([number, *name.encode()])
-    first, second = poses(animal, number, rng)
+    rng, coarse = np.random.default_rng([number, *name.encode()]), arguments.coarse
+    first, second = half_a_period(animal, rng) if arguments.walking else poses(animal, number, rng)
     source, own_s, pose_s, _ = meshed(animal, first, FACES, rng, coarse)
     target, own_t, pose_t, _ = meshed(animal, second, FACES - 1000, rng, coarse)
     truth = KDTree(own_s).query(pose_s[KDTree(pose_t).query(own_t)[1]])[1]
@@ -262,8 +282,9 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="number of the first pair")
     parser.add_argument("--coarse", action="store_true", help="the artists' meshes themselves")
     parser.add_argument("--across", type=int, default=0, help="pairs of two kinds instead")
+    parser.add_argument("--walking", action="store_true", help="people instead")
     arguments = parser.parse_args()
-    files = read_animals(arguments.data)
+    files = read_people(arguments.data) if arguments.walking else read_animals(arguments.data)
     kinds = arguments.kinds.split(",") if arguments.kinds else sorted(files)
     animals = {name: read_animal(arguments.data, *files[name]) for name in kinds}
     animals = {name: animal for name, animal in animals.items() if animal.poses and len(animal.vertices) > 100}
@@ -278,7 +299,7 @@ def main() -> None:
         print(f"{'animal':24} pair   error  unmatched  verdict             CPU s")
         for name, animal in animals.items():
             for number in range(arguments.first, arguments.first + arguments.pairs):
-                rows.append(in_two_poses(name, animal, number, arguments.coarse))
+                rows.append(in_two_poses(name, animal, number, arguments))
     right, sure = np.array(rows).T
     print(f"{len(rows)} maps, {right.sum()} right; {sure.sum()} sure, {(sure & ~right).sum()} of them wrong")
 

@@ -871,6 +871,8 @@ MUTANTS = tuple(
         ),
         ("SCORE.close_mirror_margin if is_close else", "", "test_search -k told_from_a_kept"),
         ("(state.may_reverse and advantage > 0)", "state.may_reverse", "test_symmetries -k mirrored_pose"),
+        ("gain -= SCORE.w_landmark * float(contradicted.sum())", "pass", "test_landmark_evidence -k in_part"),
+        ("if one[0] is not ranked.ranked[0])", ")", "test_registration_evidence -k casts_no_doubt_on"),
         ("if is_auto and not is_congruent else ()", "[:0]", "test_extremities -k unasked"),
         ("orientation=0.0, descriptors=0.0", "orientation=0.0", "test_symmetries -k mirrored_pose"),
         ("between[i, j] < between[i, partner[j]]", "True", "test_symmetries -k together"),

@@ -378,6 +378,30 @@ def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(
     assert last.score.rejected_landmarks.tolist() == [1]
 
 
+def conflicting(
+    monkeypatch: pytest.MonkeyPatch, ahead: float, quality: float, missed: list[float]
+) -> tuple[Any, Any, Any]:
+    """A state, its best map, which keeps to its landmarks, and a free one with errors ``missed``."""
+    best, first, second = (
+        SimpleNamespace(
+            score=score, quality=SimpleNamespace(calibrated_score=quality), deformation_energy=None, missed=missed
+        )
+        for score, missed in ((0.0, [0.0, *[0.02] * (len(missed) - 1)]), (ahead, missed), (-20.0, missed))
+    )
+    for one in (best, first, second):
+        one.unregistered, one.landmark_errors = one, np.array(one.missed)
+    monkeypatch.setattr(landmark_conflicts, "ignore_landmarks", lambda one, *_: one)
+    monkeypatch.setattr(landmark_conflicts, "without_landmark_errors", lambda one: one)
+    apart = SCORE.distinct_distance * 1.01
+    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda one, *_: apart if one is best else 1.0)
+    monkeypatch.setattr(landmark_conflicts, "rank_by_surface", lambda _: [first, second])
+    fine = SimpleNamespace(source=None)
+    state: Any = SimpleNamespace(
+        ranked=[best], candidates=[best, first], samples=SimpleNamespace(fine=fine), config=kfmaps.Config()
+    )
+    return state, best, first
+
+
 @pytest.mark.parametrize(
     ("ahead", "quality", "outcome"),
     [
@@ -396,26 +420,17 @@ def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
 
     Where it rejects all, another map that keeps to them casts a doubt: they may be right.
     """
-    apart = SCORE.distinct_distance * 1.01
-    best, first, second = (
-        SimpleNamespace(
-            score=score, quality=SimpleNamespace(calibrated_score=quality), deformation_energy=None, missed=missed
-        )
-        for score, missed in ((0.0, [0.0, 0.02]), (ahead, [0.5, 0.4]), (-20.0, [0.5, 0.4]))
-    )
-    for one in (best, first, second):
-        one.unregistered, one.landmark_errors = one, np.array(one.missed)
-    monkeypatch.setattr(landmark_conflicts, "ignore_landmarks", lambda one, *_: one)
-    monkeypatch.setattr(landmark_conflicts, "without_landmark_errors", lambda one: one)
-    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda one, *_: apart if one is best else 1.0)
-    monkeypatch.setattr(landmark_conflicts, "rank_by_surface", lambda _: [first, second])
-    fine = SimpleNamespace(source=None)
-    state: Any = SimpleNamespace(
-        ranked=[best], candidates=[best, first], samples=SimpleNamespace(fine=fine), config=kfmaps.Config()
-    )
+    state, best, first = conflicting(monkeypatch, ahead, quality, [0.5, 0.4])
     wrong, doubts = landmark_conflicts.contradicted_landmarks(state)
     assert wrong.tolist() == 2 * [outcome == "left out"]
     counted = [(one, margin) for one, margin in doubts if one is best or margin < SCORE.close_margin]
     assert counted == {"doubt": [(first, -ahead)], "left out": [(best, ahead)], "none": []}[outcome]
-    apart = SCORE.distinct_distance * 0.99
+    monkeypatch.setattr(landmark_conflicts, "map_distance", lambda *_: SCORE.distinct_distance * 0.99)
     assert all(one is first for one, _ in landmark_conflicts.contradicted_landmarks(state)[1])
+
+
+def test_landmarks_that_a_likely_map_rejects_in_part_count_in_its_margin(monkeypatch: pytest.MonkeyPatch) -> None:
+    state, best, _ = conflicting(monkeypatch, 3.1, -1.0, [0.5, 0.0, 0.02])
+    wrong, doubts = landmark_conflicts.contradicted_landmarks(state)
+    assert wrong.tolist() == [True, False, False]
+    assert doubts == ((best, pytest.approx(3.1 - SCORE.w_landmark)),)

@@ -476,3 +476,20 @@ def test_a_likely_map_that_rejects_all_landmarks_is_not_sought_again(monkeypatch
     assert len(ranked) == (2 if all(rejects) else 3)
     assert result._search is not None
     np.testing.assert_array_equal(result._search.rejected, rejects)
+
+
+@pytest.mark.parametrize(("word", "doubts"), [("sure", 0), ("likely", 1)])
+def test_a_map_that_keeps_to_rejected_landmarks_casts_no_doubt_on_a_sure_one(monkeypatch, creatures, word, doubts):
+    source, target, truth = creatures
+    landmark_vertices, improved = np.stack([truth[[5, 700]], [5, 700]], axis=1), []
+    monkeypatch.setattr(
+        search, "build_result", lambda *a: replace(build_result(*a), verdict=word, quality=-4.0, orientation="other")
+    )
+    monkeypatch.setattr(search, "candidates", lambda *a, **_k: score_maps([Start("any", np.eye(40))], a[3].fine))
+    monkeypatch.setattr(search, "_rank", lambda state: replace(state, ranked=state.candidates))
+    monkeypatch.setattr(search, "_improve_best", lambda state, _report: improved.append(state) or (state, ()))
+    monkeypatch.setattr(search, "SCORE", replace(SCORE, min_unrepaired_score=-np.inf))
+    led = np.array([True, False])
+    monkeypatch.setattr(search, "contradicted_landmarks", lambda state: (led, ((state.ranked[0], 0.3),)))
+    search.search_map(source, target, kfmaps.Config(), landmarks=landmark_vertices)
+    assert len(improved[-1].doubts) == doubts

@@ -54,7 +54,9 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     gain = without_landmark_errors(free).score - without_landmark_errors(best).score
     if gain <= SCORE.close_margin and (contradicted & (errors <= limit)).any():
         return rejected, ((free, -gain),)
-    return contradicted, doubt_of_led(best, free, gain, samples) if contradicted.all() else ()
+    if not contradicted.all():
+        gain -= SCORE.w_landmark * float(contradicted.sum())
+    return contradicted, doubt_of_led(best, free, gain, samples) if contradicted.any() else ()
 
 
 def doubt_of_led(

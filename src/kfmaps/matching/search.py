@@ -214,6 +214,8 @@ def _search_with_landmarks(
         return settled
     ranked = rank(state)
     rejected, doubts = contradicted_landmarks(ranked)
+    if found is not None and found.verdict == "sure" and rejected.any() and not rejected.all():
+        doubts = tuple(one for one in doubts if one[0] is not ranked.ranked[0])
     if rejected.any():
         state = replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected))
         settled, is_close = _settled_result(found, replace(state, doubts=doubts))
