@@ -89,6 +89,9 @@ def test_the_summary_says_what_is_odd() -> None:
     assert 48 < share < 52
     assert "doubtful" not in _summary(replace(match, local_confidence=poor, verdict="ambiguous"))
     assert "mirror image" in _summary(replace(match, orientation="reversing"))["orientation"]
+    for gain, word, is_told in ((1.1, "ambiguous", True), (0.9, "ambiguous", False), (1.1, "likely", False)):
+        rival = replace(match, verdict=word, score=MatchScore(scores=(-3.0, -3.0 + gain)))
+        assert ("take --orientation preserving" in _summary(rival).get("orientation", "")) == is_told
     lost = np.where(np.arange(n) < 1200, -1, match.target_to_source)
     assert _summary(replace(match, target_to_source=lost))["no counterpart"].startswith("1,200 of the target's 1,500")
     part = MatchPart(reason="the target is a part, 40% of the other's area", suspected=True)

@@ -54,8 +54,8 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         rows.append(("no counterpart", f"{n_unmatched:,} of the target's {n_t:,} vertices: they are -1 in the map"))
     if accuracy is not None:
         rows.append(("error", _errors_text(accuracy)))
-    if match.orientation == "reversing":
-        rows.append(("orientation", "reversed: the target is matched as the mirror image of the source"))
+    if orientation := _orientation_text(match):
+        rows.append(("orientation", orientation))
     if n_landmarks:
         numbers = ", ".join(str(number) for number in rejected)
         left_out = f"; left out, since the map contradicts them: number {numbers}, counted from 0" if numbers else ""
@@ -86,6 +86,19 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         rows.append(("written", printable(str(written))))
         rows.append(("next", printable(f"kfmaps view {quote(str(written))}{shapes}")))
     return rows
+
+
+def _orientation_text(match: Match) -> str:
+    """Return what the map has to do with mirror images; empty where nothing."""
+    scores, is_ambiguous = match.score.scores, match.verdict == "ambiguous"
+    remedy = "; if neither file is mirrored, take --orientation preserving" if is_ambiguous else ""
+    if match.orientation == "reversing":
+        return f"reversed: the target is matched as the mirror image of the source{remedy}"
+    # Without landmarks no other alternative may have the better score.
+    is_rival = is_ambiguous and not len(match.landmarks) and len(scores) > 1
+    if is_rival and scores[1] - scores[0] > SCORE.mirror_gain:
+        return f"preserved, but a map to the mirror image of the target fits better{remedy}"
+    return ""
 
 
 def _doubtful_area(match: Match) -> float:
