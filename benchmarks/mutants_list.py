@@ -869,7 +869,6 @@ MUTANTS = tuple(
             "candidates=state.candidates)",
             "test_alternating_registration -k before_mirror_images",
         ),
-        ("SCORE.close_mirror_margin if is_close else", "", "test_search -k told_from_a_kept"),
         ("(state.may_reverse and advantage > 0)", "state.may_reverse", "test_symmetries -k mirrored_pose"),
         ("gain -= SCORE.w_landmark * float(contradicted.sum())", "pass", "test_landmark_evidence -k in_part"),
         ("if one[0] is not ranked.ranked[0])", ")", "test_registration_evidence -k casts_no_doubt_on"),

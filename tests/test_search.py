@@ -208,9 +208,9 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):
     moved = shape.mesh.vertices[kept.alternatives[0]] * [1, 1, -1] - unit_area(image).vertices
     assert kept.scores[1] > kept.scores[0] + SCORE.mirror_gain
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.06
-    # It must be clearer still where only deformation tells the two apart.
-    for close, way in ((np.inf, "preserving"), (-np.inf, "reversing")):
-        margins = {"mirror_margin": 0.0, "close_mirror_margin": 100.0, "close_margin": close, "isometry_margin": -9.0}
+    # It must be more isometric, too.
+    for margin, way in ((9.0, "preserving"), (-9.0, "reversing")):
+        margins = {"mirror_margin": 0.0, "isometry_margin": margin}
         monkeypatch.setattr(orientation, "SCORE", replace(SCORE, congruent_energy=0.0, **margins))
         assert search_map(shape, mirrored, SMALL).orientation == way
 

@@ -206,7 +206,7 @@ def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(m
     source, target = (prepare(mesh, SMALL) for mesh in (posed.source, mirror_mesh(posed.target)))
     ways, verdicts = [], []
     for margin in (SCORE.isometry_margin, 0.0):
-        numbers = replace(SCORE, mirror_margin=0.0, close_mirror_margin=0.0, isometry_margin=margin)
+        numbers = replace(SCORE, mirror_margin=0.0, isometry_margin=margin)
         monkeypatch.setattr(orientation, "SCORE", numbers)
         found = search_map(source, target, SMALL)
         ways.append(found.orientation)

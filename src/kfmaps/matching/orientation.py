@@ -54,9 +54,7 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             state = replace(state, candidates=found, without_landmarks=free, ranked=preserving)
             gain = _gain(image, state, is_auto)
     is_congruent = energy is not None and energy < SCORE.congruent_energy
-    is_close = image.unregistered.score - state.ranked[0].unregistered.score < SCORE.close_margin
-    margin = SCORE.close_mirror_margin if is_close else SCORE.mirror_margin
-    margin = SCORE.mirror_gain if is_congruent else margin
+    margin = SCORE.mirror_gain if is_congruent else SCORE.mirror_margin
     advantage = _isometry_advantage(image, state.candidates) - SCORE.isometry_margin
     may_reverse = not is_auto or (state.may_reverse and advantage > 0)
     if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:

@@ -228,9 +228,6 @@ class Scoring:
     stars have 0.2."""
     mirror_margin: float = 5.0
     """Margin from which a map to the mirror image comes first with the setting "auto"; bones have 10."""
-    close_mirror_margin: float = 9.0
-    """The same where the map that preserves orientation is about as good except for its deformation energy: one turned
-    limb has cost up to 8.5."""
     isometry_margin: float = 0.8
     """Difference in :attr:`Quality.isometry_score` between a map to the mirror image and the best that keeps
     orientation below which a shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, mirrored
