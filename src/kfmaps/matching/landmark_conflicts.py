@@ -32,7 +32,8 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
 
     The best map contradicts some while it keeps to most of the others. A map that was found without landmarks and would
     be called "sure" or "likely" contradicts any number, unless a map that keeps to them fits the surfaces nearly as
-    well: then none is rejected for it, and it casts a doubt. Where it rejects most, the map that keeps to them does.
+    well: then none is rejected for it, and it casts a doubt. Where it rejects some, the map that keeps to them does;
+    unless it rejects all, these count in the margin.
     """
     best, samples = state.ranked[0], state.samples.fine
     errors = ignore_landmarks(best, samples).landmark_errors
