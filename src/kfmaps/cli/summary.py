@@ -95,8 +95,8 @@ def _orientation_text(match: Match) -> str:
     if match.orientation == "reversing":
         return f"reversed: the target is matched as the mirror image of the source{remedy}"
     # Without landmarks no other alternative may have the better score.
-    is_rival = is_ambiguous and not len(match.landmarks) and len(scores) > 1
-    if is_rival and scores[1] - scores[0] > SCORE.mirror_gain:
+    gains = [other - scores[0] for other in scores[1:2]]
+    if is_ambiguous and not len(match.landmarks) and max(gains, default=0.0) > SCORE.mirror_gain:
         return f"preserved, but a map to the mirror image of the target fits better{remedy}"
     return ""
 
