@@ -4,11 +4,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from kfmaps._texts import VERDICTS, plural, probability_text, verdict_text
 from kfmaps.cli.summary import table
 from kfmaps.collection.repair import CyclePath, MapEvidence, Replacement
-from kfmaps.config import Config
+from kfmaps.config import Config, Search
 from kfmaps.datasets import sphere
 from kfmaps.evaluation import Truth, assess
 from kfmaps.kernels.transformed import Metric
@@ -89,9 +90,6 @@ def test_the_summary_says_what_is_odd() -> None:
     assert 48 < share < 52
     assert "doubtful" not in _summary(replace(match, local_confidence=poor, verdict="ambiguous"))
     assert "mirror image" in _summary(replace(match, orientation="reversing"))["orientation"]
-    for gain, word, is_told in ((1.1, "ambiguous", True), (0.9, "ambiguous", False), (1.1, "likely", False)):
-        rival = replace(match, verdict=word, score=MatchScore(scores=(-3.0, -3.0 + gain)))
-        assert ("take --orientation preserving" in _summary(rival).get("orientation", "")) == is_told
     lost = np.where(np.arange(n) < 1200, -1, match.target_to_source)
     assert _summary(replace(match, target_to_source=lost))["no counterpart"].startswith("1,200 of the target's 1,500")
     part = MatchPart(reason="the target is a part, 40% of the other's area", suspected=True)
@@ -99,6 +97,26 @@ def test_the_summary_says_what_is_odd() -> None:
     accuracy = assess(match.source, match.target_to_source, Truth(np.arange(n), np.arange(n)))
     names, values = (list(column.cells) for column in table(match, accuracy).columns)
     assert str(values[names.index("error")]).startswith("mean 0.00, median 0.00, worst 0.00 % of √area; area under")
+
+
+def test_the_summary_says_what_decides_between_a_body_and_its_mirror_image() -> None:
+    """Only where the first alternative is a map to the mirror image and better, and the settings leave it open."""
+    vertices = SPHERE.vertices
+    mirrored, turned = (np.asarray(KDTree(vertices).query(vertices * side)[1]) for side in ([-1, 1, 1], [-1, -1, 1]))
+    preserving = Config(search=Search(orientation="preserving"))
+
+    def told(gain: float, word: str, other: np.ndarray, **fields: Any) -> bool:
+        score = MatchScore(scores=(-3.0, -3.0 + gain))
+        rival = replace(_match(), verdict=word, score=score, alternatives=(other,), **fields)
+        return "take --orientation preserving" in _summary(rival).get("orientation", "")
+
+    assert told(1.1, "ambiguous", mirrored)
+    assert told(-1.0, "ambiguous", turned, orientation="reversing")
+    assert not told(0.9, "ambiguous", mirrored)
+    assert not told(1.1, "likely", mirrored)
+    assert not told(1.1, "ambiguous", turned)
+    assert not told(1.1, "ambiguous", mirrored, config=preserving)
+    assert not told(1.1, "ambiguous", mirrored, config=Config.single_fit())
 
 
 def test_one_of_a_kind_is_no_plural() -> None:

@@ -13,6 +13,7 @@ from rich.text import Text
 from kfmaps._arrays import printable
 from kfmaps._texts import UNIT, percent, probability_text, verdict_text
 from kfmaps.evaluation import Accuracy
+from kfmaps.fmap.evaluate import smoothness
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.transformed import descriptor_width
 from kfmaps.matching.finish import low_confidence_area
@@ -90,15 +91,22 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
 
 def _orientation_text(match: Match) -> str:
     """Return what the map has to do with mirror images; empty where nothing."""
-    scores, is_ambiguous = match.score.scores, match.verdict == "ambiguous"
-    remedy = "; if neither file is mirrored, take --orientation preserving" if is_ambiguous else ""
+    search = match.config.search
+    is_open = match.verdict == "ambiguous" and search is not None and search.orientation == "auto"
+    remedy = "; if neither file is mirrored, take --orientation preserving" if is_open else ""
     if match.orientation == "reversing":
         return f"reversed: the target is matched as the mirror image of the source{remedy}"
-    # Without landmarks no other alternative may have the better score.
-    gains = [other - scores[0] for other in scores[1:2]]
-    if is_ambiguous and not len(match.landmarks) and max(gains, default=0.0) > SCORE.mirror_gain:
+    if is_open and _is_mirror_image_better(match):
         return f"preserved, but a map to the mirror image of the target fits better{remedy}"
     return ""
+
+
+def _is_mirror_image_better(match: Match) -> bool:
+    """Return whether the first alternative is a map to the mirror image with a better score."""
+    scores, has_alternative = np.asarray(match.score.scores), len(match.alternatives) > 0
+    if not has_alternative or match.partial.which != "none" or scores[1] - scores[0] <= SCORE.mirror_gain:
+        return False
+    return smoothness(match.source, match.target, match.alternatives[0]).flipped_area > 0.5
 
 
 def _doubtful_area(match: Match) -> float:

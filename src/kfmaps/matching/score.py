@@ -230,8 +230,8 @@ class Scoring:
     """Margin from which a map to the mirror image comes first with the setting "auto"; bones have 10."""
     isometry_margin: float = 0.8
     """Difference in :attr:`Quality.isometry_score` between a map to the mirror image and the best that keeps
-    orientation below which a shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, mirrored
-    brackets and bodies without symmetry 1.1 and more (research/verdict.md)."""
+    orientation below which a shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, in robes
+    up to 1.3, mirrored brackets and bodies without symmetry 1.1 and more (research/verdict.md)."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011

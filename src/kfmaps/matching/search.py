@@ -215,6 +215,7 @@ def _search_with_landmarks(
     ranked = rank(state)
     rejected, doubts = contradicted_landmarks(ranked)
     if found is not None and found.verdict == "sure" and rejected.any() and not rejected.all():
+        # Wrong landmarks make no sure map less certain.
         doubts = tuple(one for one in doubts if one[0] is not ranked.ranked[0])
     if rejected.any():
         state = replace(state, rejected=rejected, samples=drop_landmarks(state.samples, rejected))
