@@ -200,10 +200,16 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(symmetric, unmarked, m
     assert [one.name for one, margin in led.doubts if margin < 0.0] == ["image"]
 
 
-def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(monkeypatch):
-    """As in the two halves of a walk: the map that exchanges left and right hardly deforms the body."""
+@pytest.fixture(scope="module")
+def walk():
+    """A symmetric body in two poses, the second the mirror image of the first, and their prepared shapes."""
     posed = posed_pair("walk", Body(SYMMETRIC), WAVE, WAVE, (1500, 1600), np.random.default_rng(0), mirror=True)
-    source, target = (prepare(mesh, SMALL) for mesh in (posed.source, mirror_mesh(posed.target)))
+    return posed, prepare(posed.source, SMALL), prepare(mirror_mesh(posed.target), SMALL)
+
+
+def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(walk, monkeypatch):
+    """As in the two halves of a walk: the map that exchanges left and right hardly deforms the body."""
+    posed, source, target = walk
     ways, verdicts = [], []
     for margin in (SCORE.isometry_margin, 0.0):
         numbers = replace(SCORE, mirror_margin=0.0, isometry_margin=margin)
@@ -217,6 +223,16 @@ def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(m
         assert error < 0.05
     assert ways == ["preserving", "reversing"]
     assert verdicts[0] == "ambiguous"
+
+
+@pytest.mark.parametrize(("advantage", "verdict"), [(0.9, "ambiguous"), (1.3, "ambiguous"), (3.0, "sure")])
+def test_only_a_mirror_image_that_is_much_more_isometric_is_sure(walk, monkeypatch, advantage, verdict):
+    monkeypatch.setattr(orientation, "SCORE", replace(SCORE, mirror_margin=0.0))
+    monkeypatch.setattr(orientation, "_isometry_advantage", lambda *_: advantage)
+    found = search_map(*walk[1:], SMALL)
+    assert (found.orientation, found.verdict) == ("reversing", verdict)
+    state: Any = found._search
+    assert state.doubts[0][1] == pytest.approx(SCORE.w_isometry * (advantage - SCORE.isometry_margin))
 
 
 def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, monkeypatch):

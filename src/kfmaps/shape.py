@@ -22,8 +22,7 @@ from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward
 from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
-from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
-from kfmaps.geometry.mesh import mirror_mesh as mirrored_mesh
+from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 
 EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
@@ -244,7 +243,7 @@ def mirror_image(shape: Shape) -> Shape:
         raise refuse(
             shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'preserving'"
         )
-    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirror_shot(shape.shot))
+    return replace(shape, mesh=mirror_mesh(shape.mesh), shot=None if shape.shot is None else mirror_shot(shape.shot))
 
 
 def _renumber(basis: Basis, rows: np.ndarray, mass: Array) -> Basis:
