@@ -133,14 +133,14 @@ def main() -> None:
                 print(f"{path.stem:24} {error}", flush=True)
                 continue
         seconds, matched = time.process_time() - start, found.target_to_source >= 0
-        truth = KDTree(source.places).query(target.places)[1]
+        truth = np.asarray(KDTree(source.places).query(target.places)[1])
         errors = kfmaps.geodesic_errors(source.mesh, found.target_to_source[matched], truth[matched])
         errors = np.where(np.isfinite(errors), errors, 1.0)  # on another component
         told, sizes = f"{found.verdict}, {found.confidence:.3f}", f"{len(source.places)}, {len(target.places)}"
         off, none = f"{100 * errors.mean():.2f}", f"{1 - matched.mean():.0%}"
         print(f"{path.stem:24} {sizes:12} {off:>6} {none:>10}  {told:18} {seconds:6.1f}", flush=True)
         rows.append((errors.mean() < RIGHT / 100, found.verdict == "sure", seconds))
-    right, sure, seconds = np.array(rows).T
+    right, sure, seconds = np.array(rows, dtype=float).T
     wrong = (sure * (1 - right)).sum()
     print(f"{len(rows)} maps, {right.sum():.0f} right; {sure.sum():.0f} sure, {wrong:.0f} of them wrong; ", end="")
     print(f"CPU s {np.median(seconds):.1f} in the median, {seconds.max():.1f} at most")

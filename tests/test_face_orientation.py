@@ -44,12 +44,26 @@ def test_all_faces_of_a_closed_surface_are_made_to_look_outward(sphere, rng, sha
     assert looks_outward(face_outward(clean_mesh(given)).mesh).all()
 
 
-def test_a_surface_that_is_nearly_closed_is_turned_outward(sphere):
+@pytest.mark.parametrize("below", [0.9, 0.0])
+def test_a_surface_with_a_hole_and_half_of_one_are_turned_outward(sphere, below):
     height = sphere.vertices[sphere.faces, 2].max(axis=1)
-    for below, output in ((0.9, True), (0.0, False)):  # a small hole, and half a sphere
-        part = Mesh(sphere.vertices, sphere.faces[height < below])
-        assert not inward_faces(part).any()
-        assert (inward_faces(inside_out(part)) == output).all()
+    part = Mesh(sphere.vertices, sphere.faces[height < below])
+    assert not inward_faces(part).any()
+    assert inward_faces(inside_out(part)).all()
+
+
+@pytest.mark.parametrize(("height", "is_known"), [(0.5, False), (2.0, True)])
+def test_a_tube_is_turned_outward_and_a_ring_keeps_its_side(height, is_known):
+    """A ring, whose opening is larger than its area, may be the inside of a hole."""
+    angles, levels = np.linspace(0, 2 * np.pi, 40, endpoint=False), np.linspace(0, height, 5)
+    flat = sheet(np.arange(41.0), np.arange(5.0))
+    column, row = flat.vertices[:, 0].astype(int) % 40, flat.vertices[:, 1].astype(int)
+    places = np.stack([np.cos(angles[column]), np.sin(angles[column]), levels[row]], axis=1)
+    wrapped = np.ravel_multi_index((row, column), (5, 40))[flat.faces]
+    vertices = np.zeros((200, 3))
+    vertices[np.ravel_multi_index((row, column), (5, 40))] = places
+    turned = [inward_faces(side).all() for side in (Mesh(vertices, wrapped), Mesh(vertices, wrapped[:, ::-1]))]
+    assert sorted(turned) == [False, is_known]
 
 
 def test_the_volume_of_an_open_box_is_that_of_the_box():

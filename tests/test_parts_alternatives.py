@@ -36,7 +36,7 @@ from test_parts import renumbered, task_of
 
 GUARDS = ("kfmaps.matching.partial", "kfmaps.matching.score")
 
-EMPTY: Any = None
+EMPTY: Any = SimpleNamespace(self_images=())
 COST = SCORE.part.landmark_cost
 
 
@@ -87,6 +87,20 @@ def test_a_placement_that_starts_on_the_wrong_half_moves_to_the_right_one(half, 
     found = compare_alternatives([placed_at(half, true[1].points)], half[0])
     assert error(half, found[0]) < 0.05
     assert error(half, found[1]) > 0.15
+
+
+def test_near_symmetries_of_the_whole_place_the_part_elsewhere(half, true, monkeypatch):
+    """A made-up one takes the samples to the rival's places, where nothing else has placed them."""
+    on, places, _ = half
+    monkeypatch.setattr(candidates_module, "_alternative_placements", lambda *_: [])
+    best = placed_at(half, places[on.part.samples])
+    assert len(compare_alternatives([best], on)) == 1
+    images = np.arange(len(on.whole.samples))
+    images[best.placement.placed.match] = true[1].placement.placed.match
+    found = compare_alternatives([best], replace(on, self_images=images[None]))
+    assert error(half, found[0]) < 0.04
+    assert all(error(half, one) > 0.15 for one in found[1:])
+    assert len(found) == 2
 
 
 def stub(score, x, gain=0.0) -> Any:

@@ -36,6 +36,7 @@ from kfmaps.matching.self_maps import (
     _MIN_DISPLACEMENT,
     find_reflection,
     find_self_maps,
+    self_images,
     self_maps,
 )
 from kfmaps.shape import prepare
@@ -302,7 +303,8 @@ def images_of(C, of):
 
 
 def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
-    of = subsample(sample_for_scoring(prepare(Mesh(*table_mesh()), SMALL)), 400)
+    table = prepare(Mesh(*table_mesh()), SMALL)
+    of = subsample(sample_for_scoring(table), 400)
 
     def turns():
         """Distances of the self-maps that keep the orientation from half a turn."""
@@ -312,6 +314,11 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
 
     assert min(turns()) < 0.05
     assert find_reflection(of, find_self_maps(of, 60)) is None  # one of two
+    some = np.arange(0, len(table.mesh.vertices), 3)
+    positions = table.mesh.vertices[some]
+    images = [np.linalg.norm(positions[at] - positions * [-1, 1, -1], axis=1).mean() for at in self_images(table, some)]
+    assert len(images) == len(turns())
+    assert min(images) < 0.05
     monkeypatch.setattr(self_maps_module, "_keeps_shot", lambda quality, _shape: quality.orientation < 0.5)
     assert not turns()
 

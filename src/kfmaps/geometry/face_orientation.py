@@ -45,12 +45,13 @@ def inward_faces(mesh: Mesh) -> np.ndarray:
         faces = turn_faces(faces, result)
         boundary, _ = _boundary_and_agreement(faces, n)
     loop, discs = boundary_loops(mesh.vertices, boundary)
-    # Area of flat discs in the boundaries, over that of the surface, above which its volume says nothing.
-    max_opening = 0.2
-    if discs > max_opening * areas.sum():
+    opening = discs / areas.sum()  # area of flat discs in the boundaries, over that of the surface
+    max_opening = 1.0  # above which the volume says nothing: a patch of the inside of a bend looks outward with less
+    if opening > max_opening:
         return result
     volume = _enclosed_volume(mesh.vertices, faces, boundary, loop)
-    min_volume = 1e-3  # over area^(3/2), of a surface with an inside: a hundredth of a sphere's. A sheet has less.
+    # Over area^(3/2), of a surface with an inside; a sphere has 0.09. A sheet has less (research/damaged.md).
+    min_volume = 1e-3 + 0.02 * opening
     return ~result if volume < -min_volume * areas.sum() ** 1.5 else result
 
 

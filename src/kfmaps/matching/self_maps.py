@@ -20,9 +20,17 @@ from itertools import product
 import numpy as np
 
 from kfmaps._arrays import Array, to_numpy
+from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
-from kfmaps.matching.quality import ShapeSamples, map_distortion, map_quality, mirror_samples, subsample
+from kfmaps.matching.quality import (
+    ShapeSamples,
+    map_distortion,
+    map_quality,
+    mirror_samples,
+    sample_for_scoring,
+    subsample,
+)
 from kfmaps.matching.sample_pair import (
     COARSE_SAMPLES,
     EXTREMITY_FUNCTIONS,
@@ -32,6 +40,7 @@ from kfmaps.matching.sample_pair import (
     paired_map,
 )
 from kfmaps.matching.score import Quality, select_distinct
+from kfmaps.shape import Shape
 
 _MAX_DISTORTION = 0.12
 """Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
@@ -60,6 +69,18 @@ def with_self_maps(shape: ShapeSamples) -> ShapeSamples:
     maps, k = find_self_maps(coarse, functions), _size(coarse, functions)
     self_maps = np.array(maps, dtype=np.float64).reshape(len(maps), k, k)
     return replace(shape, self_maps=self_maps, reflection_map=find_reflection(coarse, maps))
+
+
+def self_images(shape: Shape, vertices: np.ndarray, rng: int = 0) -> np.ndarray:
+    """Return the images of ``vertices (q,)`` by the self-maps that keep orientation, (m, q): numbers among them."""
+    samples = sample_for_scoring(shape, COARSE_SAMPLES, rng)
+    functions = to_numpy(shape.basis.functions)[vertices]
+    images = [
+        nearest(functions[:, : len(C)], functions[:, : len(C)] @ C.T)
+        for C in find_self_maps(samples, functions.shape[1])
+        if map_quality(C, samples, samples).orientation > 0.5
+    ]
+    return np.array(images, dtype=np.int64).reshape(len(images), len(vertices))
 
 
 def find_reflection(shape: ShapeSamples, maps: list[np.ndarray]) -> np.ndarray | None:

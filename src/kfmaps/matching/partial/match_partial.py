@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Literal
 
@@ -19,6 +20,7 @@ from kfmaps.matching.partial.registration import scale_mesh
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchPart, MatchRegistration, MatchScore
 from kfmaps.matching.score import SCORE, Calibration, landmark_support, part_landmark_cost, probability, verdict
+from kfmaps.matching.self_maps import self_images
 from kfmaps.shape import Shape
 
 COMMON = 0.5
@@ -50,6 +52,7 @@ def match_partial(
     ratio = ratio if is_target or ratio is None else 1 / ratio
     settings = task.config.partial
     placing = PartTask(part.mesh, whole.mesh, settings, ratio, which == "both", task.seed, least_scale, clear_only)
+    placing = replace(placing, self_images=partial(self_images, whole, rng=task.seed))
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
     found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")

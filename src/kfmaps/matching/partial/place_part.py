@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -85,6 +85,8 @@ class PartTask:
     # Try no scale below ``least_scale``, and raise :exc:`NotClear` where the search would not end early and the part
     # seems to be most of the whole.
     clear_only: bool = False
+    # Returns the images of vertices of the whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
+    self_images: Callable[[np.ndarray], np.ndarray] | None = None
 
 
 def place_part(
@@ -110,6 +112,8 @@ def place_part(
     small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
+    if task.self_images is not None and not both_partial:
+        pair = replace(pair, self_images=task.self_images(proxies[1].vertices[samples[1].samples]))
     report(0.15)
     found = _search_placements(pair, task, report)
     report(0.75)

@@ -69,6 +69,8 @@ class PartPair:
     fixed_scale: bool = False  # whether the scale of the part is known
     both_partial: bool = False  # whether the whole may lack something too
     small_scale: float | None = None  # √area of a small part over that of the whole in their files
+    # (m, q): the images of the whole's samples by its near-symmetries, as numbers of samples.
+    self_images: np.ndarray = field(default_factory=lambda: np.zeros((0, 0), dtype=np.int64))
 
     @property
     def unmarked(self) -> PartPair:
