@@ -2,8 +2,8 @@
 
 DIR has the GIFTI files of two atlases: `fsaverage5` (10,242 vertices a side; white, pial and inflated surfaces, as the
 package nilearn brings them) and `conte69_32k` (32,492 vertices, as brainspace does). Nothing was chosen on them but
-:attr:`kfmaps.matching.score.Scoring.w_isometry`, on the first pair of sides. Vertices of the target are in random order
-and turned at random.
+:attr:`kfmaps.matching.score.Scoring.isometry_factor`, on the first pair of sides. Vertices of the target are in random
+order and turned at random.
 
 Surfaces of one side of fsaverage5, and both sides of conte69, have the same numbering: errors are mean geodesic
 distances × 100. Between others the distance in space is printed, in millimetres, of the two atlases as they lie,

@@ -233,7 +233,7 @@ def test_only_a_mirror_image_that_is_much_more_isometric_is_sure(walk, monkeypat
     found = search_map(*walk[1:], SMALL)
     assert (found.orientation, found.verdict) == ("reversing", verdict)
     state: Any = found._search
-    assert state.doubts[0][1] == pytest.approx(SCORE.w_isometry * (advantage - SCORE.isometry_margin))
+    assert state.doubts[0][1] == pytest.approx(SCORE.isometry_factor * (advantage - SCORE.isometry_margin))
 
 
 def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, monkeypatch):

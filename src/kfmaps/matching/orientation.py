@@ -58,7 +58,7 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     advantage = _isometry_advantage(image, state.candidates) - SCORE.isometry_margin
     may_reverse = not is_auto or (state.may_reverse and advantage > 0)
     if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:
-        doubts = ((state.ranked[0], SCORE.w_isometry * advantage),) if is_auto and not is_congruent else ()
+        doubts = ((state.ranked[0], SCORE.isometry_factor * advantage),) if is_auto and not is_congruent else ()
         samples = replace(samples, fine=mirrored)
         return replace(
             state,

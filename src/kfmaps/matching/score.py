@@ -232,9 +232,9 @@ class Scoring:
     """Difference in :attr:`Quality.isometry_score` between a map to the mirror image and the best that keeps
     orientation below which a shape is nearly its own mirror image: people in mirrored poses have 0.1 to 0.7, in robes
     up to 1.3, mirrored brackets and bodies without symmetry 1.1 and more (research/verdict.md)."""
-    w_isometry: float = 2.0
-    """Weight of what exceeds that margin in the margin of a map to the mirror image over the best other map: two halves
-    of a brain, a left and a right one, have 1.7 to 2.0 (research/verdict.md)."""
+    isometry_factor: float = 2.0
+    """Factor of what exceeds that margin, in the margin of a map to the mirror image over the best other one: the left
+    and the right side of a brain exceed it by 1.7 to 2.0 (research/brains.md)."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011
