@@ -34,6 +34,9 @@ def test_a_page_says_the_same() -> None:
         record = verdict_record(kind, confidence, landmarks)
         assert record == {"kind": kind, "text": verdict_text(kind, landmarks), "confidence": confidence}
     assert verdict_record("unheard of", 0.5, 0) is None
+    record = verdict_record("sure", 0.95, 0, "reversed")
+    assert record is not None
+    assert record["text"] == f"{VERDICTS['sure']} Orientation reversed."
 
 
 def test_probabilities_are_whole_per_cents_but_at_the_ends() -> None:

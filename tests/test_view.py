@@ -284,6 +284,13 @@ def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:
     np.testing.assert_allclose(other, local_confidence(source, target, points[::-1]), atol=1e-4)
 
 
+def test_a_page_says_that_a_map_is_to_the_mirror_image(small_mesh: Mesh) -> None:
+    points = np.arange(len(small_mesh.vertices))
+    for way, told in (("reversing", True), ("preserving", False)):
+        data = page_data(plain_page(small_mesh, small_mesh, Match(points, verdict="sure", orientation=way)))
+        assert ("mirror image" in data["verdict"]["text"]) == told
+
+
 def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
     source, target, points = pair
     write_mesh(tmp_path / "a.off", source)

@@ -11,9 +11,8 @@ from rich.table import Table
 from rich.text import Text
 
 from kfmaps._arrays import printable
-from kfmaps._texts import UNIT, percent, probability_text, verdict_text
+from kfmaps._texts import UNIT, orientation_text, percent, probability_text, verdict_text
 from kfmaps.evaluation import Accuracy
-from kfmaps.fmap.evaluate import smoothness
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.transformed import descriptor_width
 from kfmaps.matching.finish import low_confidence_area
@@ -55,7 +54,7 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         rows.append(("no counterpart", f"{n_unmatched:,} of the target's {n_t:,} vertices: they are -1 in the map"))
     if accuracy is not None:
         rows.append(("error", _errors_text(accuracy)))
-    if orientation := _orientation_text(match):
+    if orientation := orientation_text(match, match.source, match.target):
         rows.append(("orientation", orientation))
     if n_landmarks:
         numbers = ", ".join(str(number) for number in rejected)
@@ -87,26 +86,6 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         rows.append(("written", printable(str(written))))
         rows.append(("next", printable(f"kfmaps view {quote(str(written))}{shapes}")))
     return rows
-
-
-def _orientation_text(match: Match) -> str:
-    """Return what the map has to do with mirror images; empty where nothing."""
-    search = match.config.search
-    is_open = match.verdict == "ambiguous" and search is not None and search.orientation == "auto"
-    remedy = "; if neither file is mirrored, take --orientation preserving" if is_open else ""
-    if match.orientation == "reversing":
-        return f"reversed: the target is matched as the mirror image of the source{remedy}"
-    if is_open and _is_mirror_image_better(match):
-        return f"preserved, but a map to the mirror image of the target fits better{remedy}"
-    return ""
-
-
-def _is_mirror_image_better(match: Match) -> bool:
-    """Return whether the first alternative is a map to the mirror image with a better score."""
-    scores, has_alternative = np.asarray(match.score.scores), len(match.alternatives) > 0
-    if not has_alternative or match.partial.which != "none" or scores[1] - scores[0] <= SCORE.mirror_gain:
-        return False
-    return smoothness(match.source, match.target, match.alternatives[0]).flipped_area > 0.5
 
 
 def _doubtful_area(match: Match) -> float:

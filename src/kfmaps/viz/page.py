@@ -47,11 +47,14 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-def verdict_record(verdict: str, confidence: float | None, n_landmarks: int) -> dict[str, object] | None:
-    """Return a verdict with its text; ``None`` for an unknown verdict."""
+def verdict_record(
+    verdict: str, confidence: float | None, n_landmarks: int, orientation: str = ""
+) -> dict[str, object] | None:
+    """Return a verdict with its text, and that of its ``orientation``, if any; ``None`` for an unknown verdict."""
     if verdict not in VERDICTS:
         return None
-    return {"kind": verdict, "text": verdict_text(verdict, n_landmarks), "confidence": confidence}
+    more = f" Orientation {orientation}." if orientation else ""
+    return {"kind": verdict, "text": verdict_text(verdict, n_landmarks) + more, "confidence": confidence}
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, object]:

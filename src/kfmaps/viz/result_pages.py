@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 
 from kfmaps._records import JsonObject
+from kfmaps._texts import orientation_text
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.evaluation import Truth
@@ -116,7 +117,9 @@ def match_page(
         "kind": "result",
         "up": up,
         "views": views_record(mesh, target, maps[0]),
-        "verdict": verdict_record(match.verdict, match.confidence, len(match.landmarks)),
+        "verdict": verdict_record(
+            match.verdict, match.confidence, len(match.landmarks), orientation_text(match, mesh, target)
+        ),
         "source": source_record(mesh, names[0], colors),
         "target": shape_record(target, names[1]),
         "rotation": _rotation_by_map(mesh, target, maps[0]).ravel(),
