@@ -870,6 +870,9 @@ MUTANTS = tuple(
             "test_alternating_registration -k before_mirror_images",
         ),
         ("(state.may_reverse and advantage > 0)", "state.may_reverse", "test_symmetries -k mirrored_pose"),
+        ("SCORE.isometry_factor * advantage", "advantage", "test_symmetries -k much_more_isometric"),
+        ("images[placed.match]", "placed.match", "test_parts_alternatives -k near_symmetries"),
+        (".orientation > 0.5\n    ]", ".orientation > -2\n    ]", "test_symmetries -k by_its_extremities"),
         ("gain -= SCORE.w_landmark * float(contradicted.sum())", "pass", "test_landmark_evidence -k in_part"),
         ("if one[0] is not ranked.ranked[0])", ")", "test_registration_evidence -k casts_no_doubt_on"),
         ("if is_auto and not is_congruent else ()", "[:0]", "test_extremities -k unasked"),
@@ -1198,6 +1201,8 @@ MUTANTS = tuple(
         ),
         # faces turned outward
         ("volume < -min_volume * areas.sum() ** 1.5", "volume < 0", "test_face_orientation -k without_an_inside"),
+        ("1e-3 + 0.02 * opening", "1e-3", "test_face_orientation -k dish"),
+        ("if opening > max_opening", "if opening < 0", "test_face_orientation -k ring_keeps"),
         ("np.cross(tails, centres[loop])", "np.cross(tails, 0 * centres[loop])", "test_face_orientation -k open_box"),
         ("np.where(result, areas, -areas)", "np.where(result, areas, 0)", "test_face_orientation -k open_sheet"),
         (

@@ -52,6 +52,15 @@ def test_a_surface_with_a_hole_and_half_of_one_are_turned_outward(sphere, below)
     assert inward_faces(inside_out(part)).all()
 
 
+@pytest.mark.parametrize(("depth", "is_known"), [(0.02, False), (0.05, True)])
+def test_a_flat_dish_keeps_its_side(sphere, depth, is_known):
+    """A pillow whose upper side is open encloses little: more is needed the more open it is."""
+    x, y, z = sphere.vertices[sphere.faces].mean(axis=1).T
+    dish = Mesh(sphere.vertices * [1, 1, depth], sphere.faces[(z < 0) | (np.hypot(x, y) > 0.9)])
+    assert not inward_faces(dish).any()
+    assert inward_faces(inside_out(dish)).all() == is_known
+
+
 @pytest.mark.parametrize(("height", "is_known"), [(0.5, False), (2.0, True)])
 def test_a_tube_is_turned_outward_and_a_ring_keeps_its_side(height, is_known):
     """A ring, whose opening is larger than its area, may be the inside of a hole."""
