@@ -72,7 +72,7 @@ def orientation_text(match: Match, source: Mesh, target: Mesh) -> str:
     config = getattr(match, "config", None)
     search = config and config.search
     is_open = match.verdict == "ambiguous" and search is not None and search.orientation == "auto"
-    remedy = "; if neither file is mirrored, take --orientation preserving" if is_open else ""
+    remedy = "; take --orientation preserving if neither file is mirrored, else reversing" if is_open else ""
     if match.orientation == "reversing":
         return f"reversed: the target is matched as the mirror image of the source{remedy}"
     if is_open and _is_mirror_image_better(match, source, target):
