@@ -1118,8 +1118,10 @@ MUTANTS = tuple(
         # where the search for a part ends early, and what comes before the full one
         ("(apart < numbers.distinct_distance)", "(apart > numbers.distinct_distance)", "test_parts_alternatives"),
         ("found.score < numbers.early_exit_score or", "", "test_parts_alternatives -k search_ends"),
-        ("supported[0].scale ** 2 >= SCORE.part.min_whole_area", "True", "test_parts_alternatives -k search_ends"),
+        ("supported[0].scale ** 2 >= task.clear_area", "True", "test_parts_alternatives -k search_ends"),
         ("return order if is_sure else []", "return order", "test_parts_alternatives -k search_ends"),
+        ('if part is not None and part.verdict == "sure" else None', "", "test_parts -k clear_part"),
+        ("detection.more_open is None or _may_be_whole(detection)", "False", "test_parts -k clear_part"),
         ("< numbers.early_exit_agreement", "< 0.0", "test_parts_alternatives -k search_ends"),
         ("if is_clear or best.verdict", "if best.verdict", "test_parts -k unsure_part"),
         (

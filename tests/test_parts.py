@@ -425,9 +425,10 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     other = fake_match(whole, 0.6, energy=0.29 if deformed else 0.31)
     opposites = []
 
-    def parts(_task, _which, _why, least_scale=0.0, clear_only=False):
-        tried.append("part" if not clear_only else "clear" if least_scale**2 > 0.69 else "clear at any scale")
-        if clear_only and word == "none clear":
+    def parts(_task, _which, _why, least_scale=0.0, clear_area=np.inf):
+        is_clear = clear_area == SCORE.part.min_whole_area
+        tried.append("part" if not is_clear else "clear" if least_scale**2 > 0.69 else "clear at any scale")
+        if is_clear and word == "none clear":
             raise NotClear
         return part, False
 
@@ -499,6 +500,35 @@ def test_two_open_shapes_that_match_as_wholes_without_deformation_are_not_taken_
     monkeypatch.setattr(match_module, "_match_wholes", lambda *_: whole)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "open", 0.3, True))
     assert match_module.match(small, small, AUTO) is (part if tries_parts else whole)
+
+
+@pytest.mark.parametrize(
+    ("word", "opening", "more_open", "expected"),
+    [
+        ("sure", 0.3, "source", "source"),
+        ("sure", 0.3, "target", "target"),
+        ("likely", 0.3, "target", "both"),
+        ("not clear", 0.3, "target", "both"),
+        ("sure", 0.2, "target", "both"),  # so little is missing that both are rather whole
+    ],
+)
+def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
+    monkeypatch, small, word, opening, more_open, expected
+):
+    """As a piece of a body is of one with large holes."""
+    answers = {"both": fake_match("likely", 0.7), more_open: fake_match(word, 0.95)}
+
+    def matched(_task, which, _why, _least=0.0, clear_area=np.inf):
+        assert clear_area == (np.inf if which == "both" else 0.0)
+        if word == "not clear" and which != "both":
+            raise NotClear
+        return answers[which], False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: fake_match("ambiguous", 0.6))
+    detected = PartDetection("both", "open", opening, True, more_open)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: detected)
+    assert match_module.match(small, small, AUTO) is answers[expected]
 
 
 @pytest.mark.parametrize(

@@ -491,7 +491,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
     assert len(scales_tried) == (1 if clear else 2)
     if not clear:
         one.scale = 0.836  # of less than 70 % of the area: a part rather than a whole with holes
-        task = replace(task, clear_only=True)
+        task = replace(task, clear_area=SCORE.part.min_whole_area)
         assert place_part._search_placements(pair, task, lambda _done: None) == [likely]
         one.scale = 0.837
         with pytest.raises(place_part.NotClear):

@@ -108,7 +108,8 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
             or _deforms_at_most(best, SCORE.part.max_deformation_of_two)
         ):
             return best
-        return _more_probable(best, _match_as(task, "both", detection.reason))
+        part = _match_clear_part(task, detection)
+        return part or _more_probable(best, _match_as(task, "both", detection.reason))
     if has_search and _may_be_whole(detection):
         best = _match_holed(task, which, detection, wholes)
     else:
@@ -120,6 +121,17 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     if best.verdict == "sure" or not detection.both_open:
         return best
     return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
+
+
+def _match_clear_part(task: MatchTask, detection: PartDetection) -> Match | None:
+    """Return the match of the more open shape as a part of the other if it soon is "sure", as of a whole with holes."""
+    if detection.more_open is None or _may_be_whole(detection):
+        return None
+    try:
+        part, _ = _match_part(task, detection.more_open, detection.reason, clear_area=0.0)
+    except NotClear:
+        return None
+    return part if part is not None and part.verdict == "sure" else None
 
 
 def _match_stated(
@@ -193,7 +205,7 @@ def _match_holed(
     is_small = detection.opening <= SCORE.part.max_small_opening
     least = math.sqrt(SCORE.part.min_whole_area) if is_small else 0.0
     try:
-        part, as_wholes = _match_part(task, which, detection.reason, least, clear_only=True)
+        part, as_wholes = _match_part(task, which, detection.reason, least, clear_area=SCORE.part.min_whole_area)
     except NotClear:
         is_clear = False
     if part is not None and part.verdict == "sure":
@@ -205,15 +217,19 @@ def _match_holed(
 
 
 def _match_part(
-    task: MatchTask, which: Literal["source", "target"], reason: str, least_scale: float = 0.0, clear_only: bool = False
+    task: MatchTask,
+    which: Literal["source", "target"],
+    reason: str,
+    least_scale: float = 0.0,
+    clear_area: float = math.inf,
 ) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, and what a match of whole shapes says about parts.
 
     The match is ``None`` where each shape covers the other, and where the part does not fit. ``least_scale`` and
-    ``clear_only``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
+    ``clear_area``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     with task.clock("parts"):
-        part, covers = match_partial(task, which, reason, least_scale, clear_only=clear_only)
+        part, covers = match_partial(task, which, reason, least_scale, clear_area)
     if not covers and part.verdict != "unlikely":
         return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
     but = "each covers all of the other" if covers else "it fits nowhere"

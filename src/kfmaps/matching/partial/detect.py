@@ -19,6 +19,7 @@ class PartDetection:
     reason: str  # in words
     opening: float = 0.0  # of the more open shape: the least area that is missing, over its own area
     both_open: bool = False  # whether something may be missing of both
+    more_open: Literal["source", "target"] | None = None
 
 
 def _boundary_opening(mesh: Mesh) -> float:
@@ -46,7 +47,7 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     both_open = openings[whole] >= SCORE.part.min_opening
     if openings[part] >= SCORE.part.opening_ratio * openings[whole]:
         reason = f"the {part} has long open boundaries, and the {whole} has " + ("shorter ones" if both_open else "not")
-        return PartDetection(part, reason, openings[part], both_open)
+        return PartDetection(part, reason, openings[part], both_open, part)
     if both_open:
-        return PartDetection("both", "both have long open boundaries", openings[part], both_open)
+        return PartDetection("both", "both have long open boundaries", openings[part], both_open, part)
     return PartDetection("none", "both have open boundaries alike", openings[part])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -32,13 +33,13 @@ def match_partial(
     which: Literal["source", "target", "both"],
     why: str,
     least_scale: float = 0.0,
-    clear_only: bool = False,
+    clear_area: float = math.inf,
 ) -> tuple[Match, bool]:
     """Match two shapes of which one is a part; return the match, and whether the common part is most of both.
 
     ``which``: the part. With "both" each may have what the other lacks; then the one with the smaller area is
     registered, or the target where the units cannot be compared. ``why``: the reason to take it for a part;
-    ``least_scale`` and ``clear_only``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
+    ``least_scale`` and ``clear_area``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     source, target = task.shapes("preserving")
     for shape in (source, target):
@@ -51,7 +52,7 @@ def match_partial(
     landmarks = pairs[:, ::-1] if is_target else pairs
     ratio = ratio if is_target or ratio is None else 1 / ratio
     settings = task.config.partial
-    placing = PartTask(part.mesh, whole.mesh, settings, ratio, which == "both", task.seed, least_scale, clear_only)
+    placing = PartTask(part.mesh, whole.mesh, settings, ratio, which == "both", task.seed, least_scale, clear_area)
     placing = replace(placing, self_images=partial(self_images, whole, rng=task.seed))
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration

@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -82,9 +83,9 @@ class PartTask:
     both_partial: bool = False  # whether the whole may lack something too
     rng: int = 0
     least_scale: float = 0.0  # where all likely placements are smaller, only the first of them is registered
-    # Try no scale below ``least_scale``, and raise :exc:`NotClear` where the search would not end early and the part
-    # seems to be most of the whole.
-    clear_only: bool = False
+    # Raise :exc:`NotClear` where the search would not end early and the part seems to have this share of the whole's
+    # area or more; try no scale below ``least_scale`` then.
+    clear_area: float = math.inf
     # Returns the images of vertices of the whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
     self_images: Callable[[np.ndarray], np.ndarray] | None = None
 
@@ -147,7 +148,7 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     scales = [ratio] if pair.fixed_scale and ratio else [*SCALES, *(LARGER_SCALES if pair.both_partial else ())]
     if not pair.fixed_scale and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
         scales.append(ratio)
-    if task.clear_only and not pair.fixed_scale:
+    if math.isfinite(task.clear_area) and not pair.fixed_scale:
         scales = [scale for scale in scales if scale >= task.least_scale]
     supported: list[Placement] = []
     for some in ([ratio], scales) if ratio in scales[1:] else (scales,):
@@ -155,7 +156,7 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
         found = _clear_placements(pair, supported[0])
         if found:
             return found
-    if task.clear_only and supported[0].scale ** 2 >= SCORE.part.min_whole_area:
+    if supported[0].scale ** 2 >= task.clear_area:
         raise NotClear
     likely = _likely_placements(pair, supported, scales, task.settings.candidates)
     worth = max((one.scale for one in likely), default=task.least_scale) >= task.least_scale
