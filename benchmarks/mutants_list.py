@@ -1121,6 +1121,8 @@ MUTANTS = tuple(
         ("supported[0].scale ** 2 >= task.clear_area", "True", "test_parts_alternatives -k search_ends"),
         ("return order if is_sure else []", "return order", "test_parts_alternatives -k search_ends"),
         ('if part is not None and part.verdict == "sure" else None', "", "test_parts -k clear_part"),
+        ("alone = min(fits, numbers.max_fit)", "alone = fits", "test_parts -k unit_is_known"),
+        ('and settings.scale != "fixed":', ":", "test_parts -k unit_is_known"),
         ("detection.more_open is None or _may_be_whole(detection)", "False", "test_parts -k clear_part"),
         ("< numbers.early_exit_agreement", "< 0.0", "test_parts_alternatives -k search_ends"),
         ("if is_clear or best.verdict", "if best.verdict", "test_parts -k unsure_part"),

@@ -295,6 +295,23 @@ def test_two_parts_have_a_calibration_of_their_own(small, monkeypatch, which, wo
     assert asked == ([2, 0] if word == "unlikely" else [2])
 
 
+@pytest.mark.parametrize(("scale", "word"), [("auto", "likely"), ("free", "likely"), ("fixed", "sure")])
+def test_two_parts_are_sure_only_where_their_unit_is_known(small, monkeypatch, scale, word):
+    places, all_ = vertex_point_map(np.arange(200), small.mesh), np.ones(200)
+    found: Any = SimpleNamespace(
+        registration=SimpleNamespace(scale=1.0, vertices=small.mesh.vertices),
+        overlap=SimpleNamespace(part=all_, whole=all_, on_whole=places, on_part=places),
+        scores=(99.0,),
+        margin=9.0,
+        unguided=small.mesh.vertices,
+    )
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: found)
+    config = replace(SMALL, partial=Partial("both", scale))
+    match = match_partial(task_of(small, small, NO_LANDMARKS, config), "both", "because")[0]
+    assert match.verdict == word
+    assert (match.confidence or 0.0) < 0.9 or word == "sure"
+
+
 def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeypatch):
     """As those of whole shapes do, by the share of what is common that lies near them, in the unit of the whole."""
     numbers = SCORE.part.calibration_of_two

@@ -61,6 +61,8 @@ class Calibration:
     """Probability from which a map is called "sure"; wrong ones have had up to 0.899."""
     likely: float = 0.5
     """Probability from which a map is called "likely"."""
+    max_fit: float = 1.0
+    """Largest probability unless landmarks raise it."""
 
 
 def _part_calibration(slope: float, middle: float) -> Calibration:
@@ -76,6 +78,8 @@ class PartScoring:
     """Fitted by `benchmarks/parts_verdict.py`."""
     calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9))
     """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`."""
+    max_fit_of_unknown_unit: float = 0.89
+    """:attr:`Calibration.max_fit` of two parts unless their unit is known to be one: boxes of other sizes fit too."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0
@@ -512,7 +516,7 @@ def probability(
     if deformation_energy is not None:
         excess = excess_deformation(score, deformation_energy, numbers)
         fits *= float(expit((numbers.excess_middle - excess) / numbers.excess_width))
-    alone = fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / numbers.tie))
+    alone = min(fits, numbers.max_fit) * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / numbers.tie))
     return alone + (1.0 - alone) * support
 
 

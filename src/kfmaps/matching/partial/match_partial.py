@@ -56,6 +56,8 @@ def match_partial(
     placing = replace(placing, self_images=partial(self_images, whole, rng=task.seed))
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
+    if which == "both" and settings.scale != "fixed":
+        numbers = replace(numbers, max_fit=SCORE.part.max_fit_of_unknown_unit)
     found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")
     overlap, scale = found.overlap, found.registration.scale
     scaled = scale_mesh(part.mesh, scale)
