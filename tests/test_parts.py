@@ -314,7 +314,7 @@ def test_two_parts_are_sure_only_where_their_unit_is_known(small, monkeypatch, s
 
 def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeypatch):
     """As those of whole shapes do, by the share of what is common that lies near them, in the unit of the whole."""
-    numbers = SCORE.part.calibration_of_two
+    numbers = replace(SCORE.part.calibration_of_two, max_fit=SCORE.part.max_fit_of_unknown_unit)
     vertices, half, scale = small.mesh.vertices, np.arange(200) < 100, 0.5
     places = vertex_point_map(np.arange(200), small.mesh)
     overlap = SimpleNamespace(part=half * 1.0, whole=half * 1.0, on_whole=places, on_part=places)

@@ -230,7 +230,8 @@ def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(w
 def test_only_a_mirror_image_that_is_much_more_isometric_is_sure(walk, monkeypatch, advantage, verdict):
     monkeypatch.setattr(orientation, "SCORE", replace(SCORE, mirror_margin=0.0))
     monkeypatch.setattr(orientation, "_isometry_advantage", lambda *_: advantage)
-    found = search_map(*walk[1:], SMALL)
+    _, source, target = walk
+    found = search_map(source, target, SMALL)
     assert (found.orientation, found.verdict) == ("reversing", verdict)
     state: Any = found._search
     assert state.doubts[0][1] == pytest.approx(SCORE.isometry_factor * (advantage - SCORE.isometry_margin))

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from kfmaps.geometry.mesh import Mesh
-    from kfmaps.matching.result import Match
-
 UNIT = "% of √area"
 """Unit of errors for people: per cent of the square root of the source's area.
 
@@ -65,27 +59,3 @@ def verdict_text(verdict: str, n_landmarks: int) -> str:
     """Return the meaning of a verdict and advice, for a match with ``n_landmarks``; empty for an unknown verdict."""
     advice = (_WITH_LANDMARKS if n_landmarks else _WITHOUT_LANDMARKS).get(verdict, "")
     return f"{VERDICTS.get(verdict, '')} {advice}".strip()
-
-
-def orientation_text(match: Match, source: Mesh, target: Mesh) -> str:
-    """Return what a map between two meshes has to do with mirror images; empty where nothing or where it is unknown."""
-    config = getattr(match, "config", None)
-    search = config and config.search
-    is_open = match.verdict == "ambiguous" and search is not None and search.orientation == "auto"
-    remedy = "; take --orientation preserving if neither file is mirrored, else reversing" if is_open else ""
-    if match.orientation == "reversing":
-        return f"reversed: the target is matched as the mirror image of the source{remedy}"
-    if is_open and _is_mirror_image_better(match, source, target):
-        return f"preserved, but a map to the mirror image of the target fits better{remedy}"
-    return ""
-
-
-def _is_mirror_image_better(match: Match, source: Mesh, target: Mesh) -> bool:
-    """Return whether the first alternative is a map to the mirror image with a better score."""
-    from kfmaps.fmap.evaluate import smoothness  # would make every command start later
-    from kfmaps.matching.score import SCORE
-
-    scores, has_alternative = match.score.scores, len(match.alternatives) > 0
-    if not has_alternative or match.partial.which != "none" or scores[1] - scores[0] <= SCORE.mirror_gain:
-        return False
-    return smoothness(source, target, match.alternatives[0]).flipped_area > 0.5

@@ -11,11 +11,12 @@ from rich.table import Table
 from rich.text import Text
 
 from kfmaps._arrays import printable
-from kfmaps._texts import UNIT, orientation_text, percent, probability_text, verdict_text
+from kfmaps._texts import UNIT, percent, probability_text, verdict_text
 from kfmaps.evaluation import Accuracy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.transformed import descriptor_width
 from kfmaps.matching.finish import low_confidence_area
+from kfmaps.matching.orientation import orientation_text
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT
 from kfmaps.matching.score import SCORE

@@ -10,9 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from kfmaps.fmap.evaluate import smoothness
+from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import by_score, compose_with_symmetries, rerefine, score_maps
 from kfmaps.matching.landmark_conflicts import rank_by_surface, without_landmark_errors
 from kfmaps.matching.ranking import ProxyCache, ranking
+from kfmaps.matching.result import Match
 from kfmaps.matching.sample_pair import SamplePair, mirrored_pair
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.matching.search_state import SearchState
@@ -100,3 +103,24 @@ def mirror_candidates(found: list[Candidate], mirrored: SamplePair) -> list[Cand
     images = by_score(score_maps([replace(c, uses_descriptors=True) for c in found], mirrored))
     n_refined = 3  # maps to the mirror image that are refined again with its descriptors
     return by_score(rerefine(images[:n_refined], mirrored) + images[n_refined:])
+
+
+def orientation_text(match: Match, source: Mesh, target: Mesh) -> str:
+    """Return what a map between two meshes has to do with mirror images; empty where nothing or where it is unknown."""
+    config = getattr(match, "config", None)
+    search = config and config.search
+    is_open = match.verdict == "ambiguous" and search is not None and search.orientation == "auto"
+    remedy = "; take --orientation preserving if neither file is mirrored, else reversing" if is_open else ""
+    if match.orientation == "reversing":
+        return f"reversed: the target is matched as the mirror image of the source{remedy}"
+    if is_open and _is_mirror_image_better(match, source, target):
+        return f"preserved, but a map to the mirror image of the target fits better{remedy}"
+    return ""
+
+
+def _is_mirror_image_better(match: Match, source: Mesh, target: Mesh) -> bool:
+    """Return whether the first alternative is a map to the mirror image with a better score."""
+    scores, has_alternative = match.score.scores, len(match.alternatives) > 0
+    if not has_alternative or match.partial.which != "none" or scores[1] - scores[0] <= SCORE.mirror_gain:
+        return False
+    return smoothness(source, target, match.alternatives[0]).flipped_area > 0.5

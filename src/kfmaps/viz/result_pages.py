@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 from rich.console import Console
 
 from kfmaps._records import JsonObject
-from kfmaps._texts import orientation_text
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.evaluation import Truth
@@ -24,6 +23,7 @@ from kfmaps.io import MeshFile, check_map, projected_uv
 from kfmaps.io.bake import decode_picture
 from kfmaps.io.export import with_source_texture
 from kfmaps.io.transfer import LOST_GREY, transfer
+from kfmaps.matching.orientation import orientation_text
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import fit_rotation
 from kfmaps.viz.document import data_address, document, encode_floats, encode_integers
