@@ -101,6 +101,9 @@ def test_near_symmetries_of_the_whole_place_the_part_elsewhere(half, true, monke
     assert error(half, found[0]) < 0.04
     assert all(error(half, one) > 0.15 for one in found[1:])
     assert len(found) == 2
+    moved = candidates_module._place_symmetrically(best, images, 3).placed.match
+    assert (moved[:3] == best.placement.placed.match[:3]).all()  # landmarks stay
+    assert (moved[3:] == images[best.placement.placed.match[3:]]).all()
 
 
 def stub(score, x, gain=0.0) -> Any:

@@ -78,7 +78,7 @@ def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list
     n_alternatives, n_refined = 3, 3  # placements that are registered, and distinct candidates that are refined
     best = by_score(found)[0]
     likely = by_score(_alternative_placements(pair, best.registration.scale, best.points))[:n_alternatives]
-    likely += [_place_symmetrically(best, images) for images in pair.self_images]
+    likely += [_place_symmetrically(best, images, pair.part.n_landmarks) for images in pair.self_images]
     order = by_score([*found, *(make_candidate(refine_placement(pair, one), pair) for one in likely)])
     chosen = select_distinct(order, _differ, n_refined)
     rest = [one for one in order if all(_differ(one, other) for other in chosen)]
@@ -106,10 +106,15 @@ def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) ->
     return [one for some in parallel(place, scales) for one in some]
 
 
-def _place_symmetrically(one: PartCandidate, images: np.ndarray) -> Placement:
-    """Return the placement after a near-symmetry of the whole, which has ``images (m,)`` of its samples."""
+def _place_symmetrically(one: PartCandidate, images: np.ndarray, n_landmarks: int) -> Placement:
+    """Return the placement after a near-symmetry of the whole, which has ``images (m,)`` of its samples.
+
+    Samples that are landmarks stay.
+    """
     placed = one.placement.placed
-    return replace(one.placement, placed=replace(placed, match=images[placed.match]))
+    match = images[placed.match]
+    match[:n_landmarks] = placed.match[:n_landmarks]
+    return replace(one.placement, placed=replace(placed, match=match))
 
 
 def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
