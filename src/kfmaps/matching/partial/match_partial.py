@@ -52,8 +52,17 @@ def match_partial(
     landmarks = pairs[:, ::-1] if is_target else pairs
     ratio = ratio if is_target or ratio is None else 1 / ratio
     settings = task.config.partial
-    placing = PartTask(part.mesh, whole.mesh, settings, ratio, which == "both", task.seed, least_scale, clear_area)
-    placing = replace(placing, self_images=partial(self_images, whole, rng=task.seed))
+    placing = PartTask(
+        part.mesh,
+        whole.mesh,
+        settings,
+        ratio,
+        which == "both",
+        task.seed,
+        least_scale,
+        clear_area,
+        None if which == "both" else partial(self_images, whole, rng=task.seed),
+    )
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
     if which == "both" and settings.scale != "fixed":

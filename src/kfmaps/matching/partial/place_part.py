@@ -86,7 +86,7 @@ class PartTask:
     # Raise :exc:`NotClear` where the search would not end early and the part seems to have this share of the whole's
     # area or more; try no scale below ``least_scale`` then.
     clear_area: float = math.inf
-    # Returns the images of vertices of the whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
+    # Returns the images of vertices of a whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
     self_images: Callable[[np.ndarray], np.ndarray] | None = None
 
 
@@ -113,7 +113,7 @@ def place_part(
     small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
-    if task.self_images is not None and not both_partial:
+    if task.self_images is not None:
         pair = replace(pair, self_images=task.self_images(proxies[1].vertices[samples[1].samples]))
     report(0.15)
     found = _search_placements(pair, task, report)
