@@ -22,7 +22,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Literal
+from typing import Literal, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -113,8 +113,8 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     if has_search and _may_be_whole(detection):
         best = _match_holed(task, which, detection, wholes)
     else:
-        best, as_wholes = _match_part(task, which, detection.reason)
-        best = best or wholes(as_wholes)
+        part, as_wholes = _match_part(task, which, detection.reason)
+        best = part if _fits(part) else _more_probable(part, wholes(as_wholes))
     if best.verdict == "sure" or best.confidence is None or _is_whole(best, detection):
         return best
     best = _compare_opposite(task, best, "target" if which == "source" else "source")
@@ -159,6 +159,11 @@ def _match_stated(
     else:
         other = _match_detected(task, detection, wholes)
     return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
+
+
+def _fits(part: Match | None) -> TypeGuard[Match]:
+    """Return whether a part was placed and is not "unlikely"."""
+    return part is not None and part.verdict != "unlikely"
 
 
 def _match_as(task: MatchTask, which: Literal["source", "target", "both"], reason: str) -> Match:
@@ -225,15 +230,14 @@ def _match_part(
 ) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, and what a match of whole shapes says about parts.
 
-    The match is ``None`` where each shape covers the other, and where the part does not fit. ``least_scale`` and
+    The match is ``None`` where each shape covers the other. ``least_scale`` and
     ``clear_area``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     with task.clock("parts"):
         part, covers = match_partial(task, which, reason, least_scale, clear_area)
-    if not covers and part.verdict != "unlikely":
-        return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
-    but = "each covers all of the other" if covers else "it fits nowhere"
-    return None, MatchPart(reason=f"taken for whole: {reason}, but {but}", suspected=True)
+    if covers:
+        return None, MatchPart(reason=f"taken for whole: {reason}, but each covers all of the other", suspected=True)
+    return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
 
 
 def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "target"]) -> Match:
@@ -249,7 +253,7 @@ def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "ta
     if (opposite.partial.scale or 0.0) < least:
         return best
     scale = best.partial.scale
-    has_shrunk = len(task.landmarks) == 0 and scale is not None and scale < SCORE.part.shrunk_scale
+    has_shrunk = len(task.landmarks) == 0 and _fits(best) and scale is not None and scale < SCORE.part.shrunk_scale
     return opposite if has_shrunk else _more_probable(best, opposite)
 
 

@@ -19,7 +19,7 @@ from kfmaps._threads import parallel
 from kfmaps.matching.partial.registration import PartRegistration, find_overlap, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair
-from kfmaps.matching.partial.scale_search import TRIALS, Placement, place_all, refine_placement, rough_placements
+from kfmaps.matching.partial.scale_search import TRIALS, Placement, place_all, refine_placement, rough_placements, shot_similarity
 from kfmaps.matching.score import SCORE, PartEvidence, by_score, part_landmark_cost, part_score, select_distinct
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
@@ -129,23 +129,72 @@ def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
     return [_place_again(one, pair) for one in select_distinct(by_score(found), _differ, most)]
 
 
+def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidate]:
+    """Add the best candidate that keeps one region of the first of ``order`` and places all else anew.
+
+    A placement is often right but for a limb that lies on another. Grown outwards from a region that is right, the limb
+    is placed by its distances from there.
+    """
+    n_regions = 8  # around the first samples, which are far from each other
+    seeds = range(min(n_regions, len(pair.part.samples)))
+    grown = by_score(parallel(lambda seed: make_candidate(_grow(order[0], seed, pair), pair), seeds))[0]
+    if grown.score < order[0].score - SCORE.part.hopeless_margin:
+        return order
+    return by_score([*order, _refine_candidate(grown, pair)])
+
+
+def _grow(one: PartCandidate, seed: int, pair: PartPair) -> Placement:
+    """Return a placement of all samples that keeps what lies around the sample ``seed``, and grows from there."""
+    placement, away = _placement_where_it_lies(one, pair), one.registration.scale * pair.part.distances[seed]
+    for radius in (0.2, 0.3, 0.5, 0.8):  # in √area of the whole, within which samples are trusted
+        trust = np.where(away < radius, np.maximum(placement.placed.trust, 1e-6), 0.0)
+        placement = place_all(pair, replace(placement, placed=replace(placement.placed, trust=trust)))
+    return place_all(pair, placement)
+
+
 def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:
     """Place and register the part again from where it lies, until that makes it no better."""
     for i in range(_ROUNDS[1]):
         before, one = one.score, _place_again(one, pair)
         if i + 1 >= _ROUNDS[0] and one.score < before + SCORE.part.min_gain:
             break
+    for _ in range(_ROUNDS[1]):
+        nearby = _place_nearby(one, pair)
+        if nearby.score < one.score + SCORE.part.min_gain:
+            break
+        one = nearby
     return one
+
+
+def _place_nearby(one: PartCandidate, pair: PartPair) -> PartCandidate:
+    """Place each sample where the whole looks most like it, near where it lies, and register the part once more.
+
+    Distances have no say: between unlike bodies they differ, and placing by them moves the samples away.
+    """
+    placement = _placement_where_it_lies(one, pair)
+    similarity = shot_similarity(pair, placement.scale, placement.params)
+    there = pair.whole.mesh.vertices[pair.whole.samples]
+    away = np.linalg.norm(one.points[:, None] - there[None], axis=2) / SCORE.part.distinct_distance
+    # A sample with no other in reach goes to the nearest.
+    match = np.where(away < 1, similarity - away**2, -away - 2).argmax(axis=1)
+    match[: pair.part.n_landmarks] = placement.placed.match[: pair.part.n_landmarks]
+    placed = replace(placement.placed, match=match)
+    return make_candidate(replace(placement, similarity=similarity, placed=placed), pair)
 
 
 def _place_again(one: PartCandidate, pair: PartPair) -> PartCandidate:
     """Place and register the part once more, at the scale of its edges."""
+    return make_candidate(refine_placement(pair, _placement_where_it_lies(one, pair)), pair)
+
+
+def _placement_where_it_lies(one: PartCandidate, pair: PartPair) -> Placement:
+    """Return the placement of all samples where the registration has moved them, at the scale of the part's edges."""
     match = np.asarray(KDTree(pair.whole.mesh.vertices[pair.whole.samples]).query(one.points)[1])
     match[: pair.part.n_landmarks] = np.arange(pair.part.n_landmarks)
     trust = np.maximum(one.registration.inside[pair.part.samples], 1e-3)
     placed = Assignment(match, trust, one.placement.placed.support)
     scale = one.placement.scale if pair.fixed_scale else one.registration.scale * one.registration.edge_ratio
-    return make_candidate(refine_placement(pair, replace(one.placement, scale=scale, placed=placed)), pair)
+    return replace(one.placement, scale=scale, placed=placed)
 
 
 def _differ(one: PartCandidate, other: PartCandidate) -> bool:

@@ -28,6 +28,7 @@ from kfmaps.matching.partial.candidates import (
     compare_alternatives,
     make_candidate,
     margin,
+    regrow_best,
 )
 from kfmaps.matching.partial.registration import (
     Overlap,
@@ -167,7 +168,7 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     known = scales[0] if pair.fixed_scale and pair.both_partial else pair.small_scale
     found += [] if known is None else candidates_at_scale(pair, known)
     report(0.65)
-    return compare_alternatives(found, pair)
+    return regrow_best(compare_alternatives(found, pair), pair)
 
 
 def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidate]:
