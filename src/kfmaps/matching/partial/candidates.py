@@ -44,7 +44,11 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
     least_trust = 1e-4 if pair.both_partial else 0.01  # many samples of two parts have no place on the other
     trust = np.maximum(placement.placed.trust, least_trust)
-    found = register_part(pair, placement.scale, points, normals, trust, quick=True)
+    return _measure_candidate(placement, register_part(pair, placement.scale, points, normals, trust, quick=True), pair)
+
+
+def _measure_candidate(placement: Placement, found: PartRegistration, pair: PartPair) -> PartCandidate:
+    """Return the candidate of a registration, scored with the evidence of a placement."""
     ends = pair.whole.mesh.vertices[pair.whole.landmarks]
     errors = np.linalg.norm(found.vertices[pair.part.landmarks] - ends, axis=1)
     evidence = replace(
@@ -178,8 +182,10 @@ def _place_nearby(one: PartCandidate, pair: PartPair) -> PartCandidate:
     # A sample with no other in reach goes to the nearest.
     match = np.where(away < 1, similarity - away**2, -away - 2).argmax(axis=1)
     match[: pair.part.n_landmarks] = placement.placed.match[: pair.part.n_landmarks]
-    placed = replace(placement.placed, match=match)
-    return make_candidate(replace(placement, similarity=similarity, placed=placed), pair)
+    placement = replace(placement, similarity=similarity, placed=replace(placement.placed, match=match))
+    found = make_candidate(placement, pair)
+    # Places that were chosen because they look alike say nothing for the placement, those to which they lead do.
+    return _measure_candidate(replace(_placement_where_it_lies(found, pair), scale=placement.scale), found.registration, pair)
 
 
 def _place_again(one: PartCandidate, pair: PartPair) -> PartCandidate:
