@@ -27,6 +27,8 @@ class StageTimer:
     def __call__(self, stage: str) -> Iterator[None]:
         begin = time.perf_counter()
         self.report(stage, 0.0)
-        yield
-        self.seconds[stage] = time.perf_counter() - begin
+        try:
+            yield
+        finally:
+            self.seconds[stage] = self.seconds.get(stage, 0.0) + time.perf_counter() - begin
         self.report(stage, 1.0)

@@ -39,7 +39,7 @@ from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_U
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import PartDetection, detect_part
 from kfmaps.matching.partial.match_partial import match_partial
-from kfmaps.matching.partial.place_part import NotClear
+from kfmaps.matching.partial.place_part import GivenUp
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
@@ -129,7 +129,7 @@ def _match_clear_part(task: MatchTask, detection: PartDetection) -> Match | None
         return None
     try:
         part, _ = _match_part(task, detection.more_open, detection.reason, clear_area=0.0)
-    except NotClear:
+    except GivenUp:
         return None
     return part if part is not None and part.verdict == "sure" else None
 
@@ -211,7 +211,7 @@ def _match_holed(
     least = math.sqrt(SCORE.part.min_whole_area) if is_small else 0.0
     try:
         part, as_wholes = _match_part(task, which, detection.reason, least, clear_area=SCORE.part.min_whole_area)
-    except NotClear:
+    except GivenUp:
         is_clear = False
     if part is not None and part.verdict == "sure":
         return part
@@ -248,8 +248,11 @@ def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "ta
     """
     least = math.sqrt(SCORE.part.full_area)
     reason = "the other has more besides, as a scan with its floor"
-    with task.clock("the other as a part"):
-        opposite, _ = match_partial(task, which, reason, least)
+    try:
+        with task.clock("the other as a part"):
+            opposite, _ = match_partial(task, which, reason, least)
+    except GivenUp:
+        return best
     if (opposite.partial.scale or 0.0) < least:
         return best
     scale = best.partial.scale

@@ -144,7 +144,9 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
     grown = by_score(parallel(lambda seed: make_candidate(_grow(order[0], seed, pair), pair), seeds))[0]
     if grown.score < order[0].score - SCORE.part.hopeless_margin:
         return order
-    return by_score([*order, _refine_candidate(grown, pair)])
+    grown = _refine_candidate(grown, pair)
+    is_new = _differ(grown, order[0]) or grown.score >= order[0].score + SCORE.part.min_gain
+    return by_score([*order, grown]) if is_new else order
 
 
 def _grow(one: PartCandidate, seed: int, pair: PartPair) -> Placement:

@@ -55,8 +55,8 @@ _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a coarse pr
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
 
 
-class NotClear(Exception):
-    """A search for a part that was to end early did not."""
+class GivenUp(Exception):
+    """A search for a part found nothing that its task asks for: a clear placement, or one that is large enough."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,9 +83,9 @@ class PartTask:
     ratio: float | None = None
     both_partial: bool = False  # whether the whole may lack something too
     rng: int = 0
-    least_scale: float = 0.0  # where all likely placements are smaller, only the first of them is registered
-    # Raise :exc:`NotClear` where the search would not end early and the part seems to have this share of the whole's
-    # area or more; try no scale below ``least_scale`` then.
+    least_scale: float = 0.0  # raise :exc:`GivenUp` where all likely placements are smaller
+    # Raise it also where the search would not end early and the part seems to have this share of the whole's area or
+    # more; try no scale below ``least_scale`` then.
     clear_area: float = math.inf
     # Returns the images of vertices of a whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
     self_images: Callable[[np.ndarray], np.ndarray] | None = None
@@ -158,13 +158,16 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
         if found:
             return found
     if supported[0].scale ** 2 >= task.clear_area:
-        raise NotClear
+        raise GivenUp
+    min_support = 0.9  # of a placement that may become the best, over that of the best supported one
+    least = min_support * supported[0].placed.support
+    if all(one.scale < task.least_scale for one in supported if one.placed.support >= least):
+        raise GivenUp
     likely = _likely_placements(pair, supported, scales, task.settings.candidates)
-    worth = max((one.scale for one in likely), default=task.least_scale) >= task.least_scale
+    if all(one.scale < task.least_scale for one in likely):
+        raise GivenUp
     report(0.5)
-    found = [make_candidate(one, pair) for one in (likely if worth else likely[:1])]
-    if not worth:
-        return found
+    found = [make_candidate(one, pair) for one in likely]
     known = scales[0] if pair.fixed_scale and pair.both_partial else pair.small_scale
     found += [] if known is None else candidates_at_scale(pair, known)
     report(0.65)
