@@ -1114,7 +1114,21 @@ MUTANTS = tuple(
         ),
         # whether the open shape has more than the closed one
         ("least = math.sqrt(SCORE.part.full_area)", "least = SCORE.part.full_area", "test_parts -k may_hold_all"),
-        ("for one in (likely if worth else likely[:1])", "for one in likely[:1]", "test_parts_alternatives"),
+        ("one.placed.support >= least", "True", "test_parts_alternatives -k given_up"),
+        ("task.least_scale for one in likely)", "0 for one in likely)", "test_parts_alternatives -k given_up"),
+        ("_fits(best) and scale is not None", "scale is not None", "test_parts -k has_shrunk"),
+        ("part if _fits(part) else _more_probable(", "part or (", "test_parts -k unsure_part"),
+        # a placement that grows anew, and samples that move to what looks like them near by
+        ("np.where(away < radius, np.max", "np.where(away > radius, np.max", "test_parts_alternatives -k limb"),
+        ("_differ(grown, order[0]) or grown", "grown", "test_parts_alternatives -k regrowth"),
+        ("grown.score < order[0].score - SCORE", "grown.score < SCORE", "test_parts_alternatives -k regrowth"),
+        ("(similarity - away**2)", "(similarity - away)", "test_parts_alternatives -k near_where"),
+        ("(similarity - away**2)", "similarity", "test_parts_alternatives -k near_where"),
+        (
+            "return _measure_candidate(lies, found",
+            "return found or (lies, found",
+            "test_parts_alternatives -k near_where",
+        ),
         # where the search for a part ends early, and what comes before the full one
         ("(apart < numbers.distinct_distance)", "(apart > numbers.distinct_distance)", "test_parts_alternatives"),
         ("found.score < numbers.early_exit_score or", "", "test_parts_alternatives -k search_ends"),

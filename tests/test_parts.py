@@ -24,7 +24,7 @@ from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, match_partial
-from kfmaps.matching.partial.place_part import NotClear, PartTask, _same_units, place_part
+from kfmaps.matching.partial.place_part import GivenUp, PartTask, _same_units, place_part
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
     Assignment,
@@ -415,6 +415,7 @@ def fake_match(word: str, confidence: float, scale: float = 0.7, energy: float |
         ("none clear", 0.7, 0.09, "auto", "likely, deformed little", "whole", ["clear at any scale", "whole"]),
         ("none clear", 0.7, 0.04, "auto", "likely", "whole", ["clear", "whole"]),  # a limb is missing at most
         ("unlikely", 0.1, 0.3, "auto", "likely, deformed little", "whole", ["part", "whole"]),
+        ("unlikely", 0.61, 0.3, "auto", "unlikely, deformed little", "part", ["part", "whole"]),  # the other is less so
         ("ambiguous", 0.7, 0.3, "none", "ambiguous, deformed little", "whole", ["whole", "part"]),
         ("ambiguous", 0.4, 0.06, "auto", "likely", "whole", ["clear at any scale", "whole"]),
         ("likely", 0.7, 0.06, "auto", "likely", "part", ["clear at any scale", "whole"]),
@@ -446,7 +447,7 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
         is_clear = clear_area == SCORE.part.min_whole_area
         tried.append("part" if not is_clear else "clear" if least_scale**2 > 0.69 else "clear at any scale")
         if is_clear and word == "none clear":
-            raise NotClear
+            raise GivenUp
         return part, False
 
     def wholes(*given):
@@ -538,7 +539,7 @@ def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
     def matched(_task, which, _why, _least=0.0, clear_area=np.inf):
         assert clear_area == (np.inf if which == "both" else 0.0)
         if word == "not clear" and which != "both":
-            raise NotClear
+            raise GivenUp
         return answers[which], False
 
     monkeypatch.setattr(match_module, "match_partial", matched)
@@ -608,3 +609,41 @@ def test_an_open_scan_may_hold_all_of_a_closed_shape(
     found = match_module.match(small, small, config, landmarks=landmarks)
     assert found is answers["source" if expected == "opposite" else "target"]
     assert tried == ["target"] + ["source"] * (word != "sure" and asked == "auto")
+
+
+def test_an_open_scan_stays_the_part_where_the_other_is_given_up(monkeypatch, small):
+    part, clocks = fake_match("likely", 0.6, scale=0.5), []
+
+    def matched(task, which, *_, **__):
+        clocks.append(task.clock)
+        if which == "source":
+            raise GivenUp
+        return part, False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
+    assert match_module.match(small, small, AUTO) is part
+    assert list(clocks[0].seconds)[-2:] == ["parts", "the other as a part"]  # its time counts too
+
+
+@pytest.mark.parametrize(
+    ("word", "confidence", "expected"), [("likely", 0.3, True), ("unlikely", 0.3, False), ("unlikely", 0.5, True)]
+)
+def test_a_part_that_has_shrunk_gives_way_to_the_other(monkeypatch, word, confidence, expected):
+    """One that fits nowhere is no more shrunk than wrong, and gives way to what is more probable alone."""
+    best: Any = fake_match(word, 0.4, scale=0.25)
+    opposite = fake_match("unlikely", confidence, scale=0.8)
+    monkeypatch.setattr(match_module, "match_partial", lambda *_: (opposite, False))
+    task: Any = SimpleNamespace(landmarks=(), clock=StageTimer())
+    assert (match_module._compare_opposite(task, best, "source") is opposite) == expected
+
+
+def test_a_stage_that_is_entered_twice_is_measured_as_one(monkeypatch):
+    times = iter([1.0, 2.0, 5.0, 9.0])
+    monkeypatch.setattr("kfmaps._progress.time.perf_counter", lambda: next(times))
+    clock = StageTimer()
+    with clock("parts"):
+        pass
+    with pytest.raises(GivenUp), clock("parts"):
+        raise GivenUp
+    assert clock.seconds == {"parts": 5.0}

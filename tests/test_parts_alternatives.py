@@ -121,6 +121,7 @@ def test_rivals_are_polished_before_they_are_compared(monkeypatch):
     """The best at first, a copy of it, a rival that was hit by chance, and a third that is left behind."""
     monkeypatch.setattr(candidates_module, "_alternative_placements", lambda *_: [])
     monkeypatch.setattr(candidates_module, "_place_again", again)
+    monkeypatch.setattr(candidates_module, "_place_nearby", lambda one, _pair: one)
     found: Any = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
     last: Any = compare_alternatives(found, EMPTY)
     assert [one.points[0, 0] for one in last] == [1.0, 0.0, 2.0, 3.0]
@@ -135,6 +136,7 @@ def test_rivals_are_polished_before_they_are_compared(monkeypatch):
 
 def test_polishing_ends_where_nothing_is_gained(monkeypatch):
     monkeypatch.setattr(candidates_module, "_place_again", again)
+    monkeypatch.setattr(candidates_module, "_place_nearby", lambda one, _pair: one)
     for gain, times in (
         (0.99 * SCORE.part.min_gain, _ROUNDS[0]),
         (1.01 * SCORE.part.min_gain, _ROUNDS[1]),
@@ -142,6 +144,87 @@ def test_polishing_ends_where_nothing_is_gained(monkeypatch):
     ):
         last: Any = _refine_candidate(stub(1.0, 0.0, gain), EMPTY)
         assert last.times == times
+
+
+def test_samples_go_on_to_what_looks_like_them_near_by_while_that_gains(monkeypatch):
+    monkeypatch.setattr(candidates_module, "_place_again", lambda one, _pair: one)
+    for gain, times, score in (
+        (0.99 * SCORE.part.min_gain, 0, 1.0),
+        (1.01 * SCORE.part.min_gain, _ROUNDS[1], 1 + _ROUNDS[1] * 1.01 * SCORE.part.min_gain),
+    ):
+        monkeypatch.setattr(candidates_module, "_place_nearby", again)
+        last: Any = _refine_candidate(stub(1.0, 0.0, gain), EMPTY)
+        assert (last.times, last.score) == (times, pytest.approx(score))
+
+
+def test_samples_are_placed_by_their_descriptors_near_where_they_lie(half, monkeypatch):
+    """Places that look alike but lie farther away do not count, and the evidence is of where the samples lie then."""
+    on, places, _ = half
+    one = placed_at(half, places[on.part.samples])
+    there = on.whole.mesh.vertices[on.whole.samples]
+    away = np.linalg.norm(one.points[:, None] - there, axis=2)
+    nearest, second = np.argsort(away, axis=1)[:, :2].T
+    alike = np.full(away.shape, 0.1, dtype=np.float32)
+    each = np.arange(len(away))
+    is_near = away[each, second] < 0.05
+    alike[is_near, second[is_near]] = 1.0  # each looks most like the second nearest
+    alike[each, away.argmax(axis=1)] = 9.0
+    asked = []
+
+    def made(placement, pair):
+        asked.append(placement)
+        return make_candidate(placement, pair)
+
+    monkeypatch.setattr(candidates_module, "shot_similarity", lambda *_: alike)
+    monkeypatch.setattr(candidates_module, "make_candidate", made)
+    moved = candidates_module._place_nearby(one, on)
+    assert is_near.sum() > 20
+    np.testing.assert_array_equal(asked[0].placed.match[is_near], second[is_near])
+    others = ~is_near & (away.min(axis=1) < 0.1)
+    np.testing.assert_array_equal(asked[0].placed.match[others], nearest[others])
+    lies = np.asarray(KDTree(there).query(moved.points)[1])
+    np.testing.assert_array_equal(moved.placement.placed.match, lies)
+    assert moved.evidence.similarity_rank == pytest.approx(moved.placement.evidence.similarity_rank)
+    assert (
+        moved.placement.scale == asked[0].scale == pytest.approx(one.registration.scale * one.registration.edge_ratio)
+    )
+    marked = PartPair(replace(on.part, n_landmarks=3), replace(on.whole, n_landmarks=3))
+    candidates_module._place_nearby(one, marked)
+    assert asked[1].placed.match[:3].tolist() == [0, 1, 2]
+
+
+def test_a_limb_that_lies_elsewhere_is_placed_anew_from_the_rest(half, true):
+    """A third of the samples, all on one side, begin at the places that the rival gives them."""
+    on, places, scale = half
+    far = np.argsort(on.part.distances[0])[-33:]
+    ends = places[on.part.samples].copy()
+    ends[far] = true[1].points[far]
+    start = placed_at(half, ends)
+    assert error(half, start) > 0.07
+    found = candidates_module.regrow_best([start], on)
+    assert error(half, found[0]) < 0.05 < error(half, found[1])
+    assert found[1] is start
+    kept = candidates_module._grow(start, 0, on)
+    near = on.part.distances[0] * scale < 0.15
+    off = np.linalg.norm(on.whole.mesh.vertices[on.whole.samples[kept.placed.match]] - places[on.part.samples], axis=1)
+    assert off[near].mean() < 0.06
+
+
+def test_what_regrowth_gains_too_little_or_loses_much_is_left(half, monkeypatch):
+    best, limit = stub(20.0, 0.0), SCORE.part.hopeless_margin
+    for score, refined, where, first in (
+        (19.0, 20.0 + 1.01 * SCORE.part.min_gain, 0.0, True),
+        (19.0, 20.0 + 0.99 * SCORE.part.min_gain, 0.0, False),  # the same place
+        (19.0, 20.0 + 0.5 * SCORE.part.min_gain, 1.0, True),  # another place
+        (19.99 - limit, 21.0, 0.0, False),
+        (20.01 - limit, 21.0, 0.0, True),
+    ):
+        monkeypatch.setattr(candidates_module, "_grow", lambda *_: None)
+        monkeypatch.setattr(candidates_module, "make_candidate", lambda *_, _score=score: stub(_score, 0.0))
+        monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_, _to=(refined, where): stub(*_to))
+        order: Any = candidates_module.regrow_best([best], half[0])
+        assert (order[0] is best) != first
+        assert len(order) == 1 + first
 
 
 def test_only_candidates_that_differ_are_rivals():
@@ -392,7 +475,7 @@ def test_all_placements_of_small_parts_and_of_two_parts_in_one_unit_are_register
         seen.append(found)
         raise StopIteration
 
-    likely = SimpleNamespace(scale=1.0)
+    likely = SimpleNamespace(scale=1.0, placed=SimpleNamespace(support=1.0))
     monkeypatch.setattr(place_part, "try_scales", lambda *_: [likely])
     monkeypatch.setattr(place_part, "_clear_placements", lambda *_: [])
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
@@ -406,34 +489,34 @@ def test_all_placements_of_small_parts_and_of_two_parts_in_one_unit_are_register
 
 
 @pytest.mark.parametrize(
-    ("scales", "tried", "ends"), [((0.3, 0.4), [0.3], "last"), ((0.3, 0.6), [0.3, 0.6], "compare")]
+    ("supports", "likely", "registered"),
+    [
+        ((0.30, 0.10), 0.6, False),  # the large placement is supported little
+        ((0.30, 0.26), 0.6, False),
+        ((0.30, 0.28), 0.6, True),
+        ((0.30, 0.28), 0.4, False),  # it becomes small once it is refined
+    ],
 )
-def test_where_all_placements_are_too_small_the_first_alone_is_registered(
-    monkeypatch: pytest.MonkeyPatch, scales: tuple[float, ...], tried: list[float], ends: str
+def test_a_search_for_a_large_part_is_given_up_where_all_likely_placements_are_small(
+    monkeypatch: pytest.MonkeyPatch, supports: tuple[float, ...], likely: float, registered: bool
 ) -> None:
-    class End(Exception):
-        """Where placing a part was left."""
+    def placed(scale: float, support: float) -> Any:
+        return SimpleNamespace(scale=scale, placed=SimpleNamespace(support=support))
 
-    def left(name: str) -> Any:
-        def leave(*_: Any) -> Any:
-            raise End(name)
+    def compared(found: Any, _pair: PartPair) -> Any:
+        assert [one.scale for one in found] == [0.3, likely]
+        raise StopIteration
 
-        return leave
-
-    seen: list[float] = []
-    likely = [SimpleNamespace(scale=scale) for scale in scales]
-    monkeypatch.setattr(place_part, "try_scales", lambda *_: likely)
+    supported = [placed(scale, support) for scale, support in zip((0.3, 0.6), supports, strict=True)]
+    refined = [supported[0], placed(likely, 0.3)]
+    monkeypatch.setattr(place_part, "try_scales", lambda *_: supported)
     monkeypatch.setattr(place_part, "_clear_placements", lambda *_: [])
-    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: likely)
-    monkeypatch.setattr(
-        place_part, "make_candidate", lambda one, _: seen.append(one.scale) or SimpleNamespace(registration=None)
-    )
-    monkeypatch.setattr(place_part, "compare_alternatives", left("compare"))
-    monkeypatch.setattr(place_part, "_register_fully", left("last"))
+    monkeypatch.setattr(place_part, "_likely_placements", lambda *_: refined)
+    monkeypatch.setattr(place_part, "make_candidate", lambda one, _pair: one)
+    monkeypatch.setattr(place_part, "compare_alternatives", compared)
     triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
-    with pytest.raises(End, match=ends):
+    with pytest.raises(StopIteration if registered else place_part.GivenUp):
         place_part.place_part(place_part.PartTask(triangle, triangle, Partial(), least_scale=0.5))
-    assert seen == tried
 
 
 @pytest.mark.parametrize(
@@ -457,7 +540,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
             score=SCORE.part.early_exit_score + score,
             scale=scale,
             registration=SimpleNamespace(scale=scale),
-            placed=SimpleNamespace(match=match),
+            placed=SimpleNamespace(match=match, support=1.0),
         )
         for match in (each, np.where(each < agree, each, (each + 50) % 100))
     )
@@ -477,6 +560,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
     monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
+    monkeypatch.setattr(place_part, "regrow_best", lambda found, _pair: found)
     monkeypatch.setattr(place_part, "margin", lambda *_: ahead)
     line = np.abs(each[:, None] - each) * 0.05
     pair: Any = SimpleNamespace(
@@ -497,9 +581,9 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
         task = replace(task, clear_area=SCORE.part.min_whole_area)
         assert place_part._search_placements(pair, task, lambda _done: None) == [likely]
         one.scale = 0.837
-        with pytest.raises(place_part.NotClear):
+        with pytest.raises(place_part.GivenUp):
             place_part._search_placements(pair, task, lambda _done: None)
         scales_tried.clear()
-        with pytest.raises(place_part.NotClear):
+        with pytest.raises(place_part.GivenUp):
             place_part._search_placements(pair, replace(task, least_scale=0.8), lambda _done: None)
         assert min(scales_tried[-1]) == pytest.approx(0.28 * 1.15**8)  # none below the least

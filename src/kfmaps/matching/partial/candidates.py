@@ -19,7 +19,14 @@ from kfmaps._threads import parallel
 from kfmaps.matching.partial.registration import PartRegistration, find_overlap, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair
-from kfmaps.matching.partial.scale_search import TRIALS, Placement, place_all, refine_placement, rough_placements, shot_similarity
+from kfmaps.matching.partial.scale_search import (
+    TRIALS,
+    Placement,
+    place_all,
+    refine_placement,
+    rough_placements,
+    shot_similarity,
+)
 from kfmaps.matching.score import SCORE, PartEvidence, by_score, part_landmark_cost, part_score, select_distinct
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
@@ -181,13 +188,13 @@ def _place_nearby(one: PartCandidate, pair: PartPair) -> PartCandidate:
     similarity = shot_similarity(pair, placement.scale, placement.params)
     there = pair.whole.mesh.vertices[pair.whole.samples]
     away = np.linalg.norm(one.points[:, None] - there[None], axis=2) / SCORE.part.distinct_distance
-    # A sample with no other in reach goes to the nearest.
-    match = np.where(away < 1, similarity - away**2, -away - 2).argmax(axis=1)
+    match = (similarity - away**2).argmax(axis=1)
     match[: pair.part.n_landmarks] = placement.placed.match[: pair.part.n_landmarks]
     placement = replace(placement, similarity=similarity, placed=replace(placement.placed, match=match))
     found = make_candidate(placement, pair)
     # Places that were chosen because they look alike say nothing for the placement, those to which they lead do.
-    return _measure_candidate(replace(_placement_where_it_lies(found, pair), scale=placement.scale), found.registration, pair)
+    lies = replace(_placement_where_it_lies(found, pair), scale=placement.scale)
+    return _measure_candidate(lies, found.registration, pair)
 
 
 def _place_again(one: PartCandidate, pair: PartPair) -> PartCandidate:
