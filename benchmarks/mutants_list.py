@@ -1118,6 +1118,8 @@ MUTANTS = tuple(
         ("task.least_scale for one in likely)", "0 for one in likely)", "test_parts_alternatives -k given_up"),
         ("_fits(best) and scale is not None", "scale is not None", "test_parts -k has_shrunk"),
         ("part if _fits(part) else _more_probable(", "part or (", "test_parts -k unsure_part"),
+        ("len(others) == 0 and other.reg", "other.reg", "test_parts_alternatives -k contradicts_are"),
+        ("(found,) if has_shrunk else", "(found,) if False else", "test_parts_alternatives -k contradicts_are"),
         # a placement that grows anew, and samples that move to what looks like them near by
         ("np.where(away < radius, np.max", "np.where(away > radius, np.max", "test_parts_alternatives -k limb"),
         ("_differ(grown, order[0]) or grown", "grown", "test_parts_alternatives -k regrowth"),

@@ -97,7 +97,7 @@ def test_near_symmetries_of_the_whole_place_the_part_elsewhere(half, true, monke
     assert len(compare_alternatives([best], on)) == 1
     images = np.arange(len(on.whole.samples))
     images[best.placement.placed.match] = true[1].placement.placed.match
-    found = compare_alternatives([best], replace(on, self_images=images[None]))
+    found = compare_alternatives([best], replace(on, find_self_images=lambda: images[None]))
     assert error(half, found[0]) < 0.04
     assert all(error(half, one) > 0.15 for one in found[1:])
     assert len(found) == 2
@@ -287,21 +287,23 @@ def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(
 
 
 @pytest.mark.parametrize(
-    ("wrong", "first", "others", "second", "then", "again"),
+    ("wrong", "first", "others", "second", "then", "again", "scale"),
     [
-        ([], 20.0, None, 99.0, [], False),  # all is well: no second placement
-        ([1], 20.0, [0, 2], 20.0, [1], True),  # one is wrong: the others place the part
-        ([1], 20.0, [0, 2], 19.9, [1], False),
-        ([1], 20.0, [0, 2], 20.1 - COST, [], True),
-        ([0, 2], 20.0, [], 20.1, [0, 2], True),  # most are wrong: none does
-        ([0, 2], 20.0, [], 19.9 + COST, [0, 1, 2], False),
-        ([], 5.0, [], 5.1 + 3 * COST, [0, 1, 2], True),  # it fits nowhere with them
-        ([], 5.0, [], 4.9 + 3 * COST, [0, 1, 2], False),  # a little better, against all of them
-        ([], 5.0, [], 5.1 + COST, [1], True),
+        ([], 20.0, None, 99.0, [], False, 0.7),  # all is well: no second placement
+        ([1], 20.0, [0, 2], 20.0, [1], True, 0.7),  # one is wrong: the others place the part
+        ([1], 20.0, [0, 2], 19.9, [1], False, 0.7),
+        ([1], 20.0, [0, 2], 20.1 - COST, [], True, 0.7),
+        ([0, 2], 20.0, [], 20.1, [0, 2], True, 0.7),  # most are wrong: none does
+        ([0, 2], 20.0, [], 19.9 + COST, [0, 1, 2], False, 0.7),
+        ([], 5.0, [], 5.1 + 3 * COST, [0, 1, 2], True, 0.7),  # it fits nowhere with them
+        ([], 5.0, [], 4.9 + 3 * COST, [0, 1, 2], False, 0.7),  # a little better, against all of them
+        ([], 5.0, [], 5.1 + COST, [1], True, 0.7),
+        ([], 5.0, [], 99.0, [0, 1, 2], False, 0.99 * SCORE.part.shrunk_scale),  # it fits nearly everywhere
+        ([1], 20.0, [0, 2], 20.0, [1], True, 0.99 * SCORE.part.shrunk_scale),  # but not with landmarks
     ],
 )
 def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_score_much_better(
-    wrong: list[int], first: float, others: list[int] | None, second: float, then: list[int], again: bool
+    wrong: list[int], first: float, others: list[int] | None, second: float, then: list[int], again: bool, scale: float
 ) -> None:
     whole: Any = SimpleNamespace(vertices=np.eye(3))
     pairs = np.stack([np.arange(3), np.arange(3)], axis=1)
@@ -313,7 +315,7 @@ def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_sc
         off[wrong if len(asked) == 1 else then] = 1.01 * SCORE.part.max_landmark_error
         moved = whole.vertices + off * [1.0, 0.0, 0.0]
         score = first if len(asked) == 1 else second
-        return SimpleNamespace(unguided=moved, scores=(score,), margin=9.0)
+        return SimpleNamespace(unguided=moved, scores=(score,), margin=9.0, registration=SimpleNamespace(scale=scale))
 
     found, errors = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration, two=False)
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])

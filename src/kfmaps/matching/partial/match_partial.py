@@ -109,7 +109,8 @@ def _place_by_landmarks(
     A placement that contradicts some landmarks is compared with one by the others. Where it contradicts most, or where
     the part fits nowhere with them by the ``numbers`` of its verdict, it is compared with one without landmarks. The
     better score decides, less a cost for each contradicted landmark, which is higher for ``two`` parts: so right
-    landmarks are not dropped for a slightly better score.
+    landmarks are not dropped for a slightly better score. A placement without landmarks that has shrunk to the least
+    scale never wins: it fits nearly everywhere.
     """
 
     def errors(found: PlacedPart) -> np.ndarray:
@@ -120,7 +121,9 @@ def _place_by_landmarks(
     fits_nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
     if len(pairs) and (fits_nowhere or is_wrong.any()):
         others = pairs[:0] if fits_nowhere or is_wrong.mean() > 0.5 else pairs[~is_wrong]
-        both = place_with(landmarks=others, progress=None), found
+        other = place_with(landmarks=others, progress=None)
+        has_shrunk = len(others) == 0 and other.registration.scale < SCORE.part.shrunk_scale
+        both = (found,) if has_shrunk else (other, found)
         found = max(both, key=lambda found: found.scores[0] - part_landmark_cost(errors(found), two))
     return found, errors(found)
 

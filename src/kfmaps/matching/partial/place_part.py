@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -113,9 +114,9 @@ def place_part(
     ]
     small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
-    pair = PartPair(samples[0], samples[1], fixed, both_partial, small)
-    if task.self_images is not None:
-        pair = replace(pair, self_images=task.self_images(proxies[1].vertices[samples[1].samples]))
+    on_whole = proxies[1].vertices[samples[1].samples]
+    find_images = None if task.self_images is None else partial(task.self_images, on_whole)
+    pair = PartPair(samples[0], samples[1], fixed, both_partial, small, find_images)
     report(0.15)
     found = _search_placements(pair, task, report)
     report(0.75)

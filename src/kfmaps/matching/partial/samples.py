@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -69,8 +70,13 @@ class PartPair:
     fixed_scale: bool = False  # whether the scale of the part is known
     both_partial: bool = False  # whether the whole may lack something too
     small_scale: float | None = None  # √area of a small part over that of the whole in their files
-    # (m, q): the images of the whole's samples by its near-symmetries, as numbers of samples.
-    self_images: np.ndarray = field(default_factory=lambda: np.zeros((0, 0), dtype=np.int64))
+    find_self_images: Callable[[], np.ndarray] | None = None  # returns :attr:`self_images`
+
+    @cached_property
+    def self_images(self) -> np.ndarray:
+        """The images of the whole's samples by its near-symmetries, (m, q): numbers of samples."""
+        none = np.zeros((0, len(self.whole.samples)), dtype=np.int64)
+        return none if self.find_self_images is None else self.find_self_images()
 
     @property
     def unmarked(self) -> PartPair:
