@@ -1207,7 +1207,7 @@ MUTANTS = tuple(
         ("if may_be_sure else None", "if True else None", "test_registration_evidence -k only_refine"),
         ("report, only_best=is_sure", "report, only_best=False", "test_alternating_registration -k sure_map"),
         ("0 if only_best else N_MATCHES", "N_MATCHES", "test_alternating_registration -k sure_map"),
-        ("scale < SCORE.part.shrunk_scale", "scale > 1", "test_parts -k may_hold_all"),
+        ("and scale < SCORE.part.shrunk_scale", "and scale > 1", "test_parts -k may_hold_all"),
         # what is done with noise and with faces without area
         (
             "replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))",
