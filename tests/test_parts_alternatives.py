@@ -299,7 +299,7 @@ def test_scores_are_those_without_landmarks_that_the_best_candidate_contradicts(
         ([], 5.0, [], 4.9 + 3 * COST, [0, 1, 2], False, 0.7),  # a little better, against all of them
         ([], 5.0, [], 5.1 + COST, [1], True, 0.7),
         ([], 5.0, [], 99.0, [0, 1, 2], False, 0.99 * SCORE.part.shrunk_scale),  # it fits nearly everywhere
-        ([1], 20.0, [0, 2], 20.0, [1], True, 0.99 * SCORE.part.shrunk_scale),  # but not with landmarks
+        ([1], 20.0, [0, 2], 20.5, [1], True, 0.99 * SCORE.part.shrunk_scale),  # but not with landmarks
     ],
 )
 def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_score_much_better(
