@@ -230,8 +230,8 @@ def _match_part(
 ) -> tuple[Match | None, MatchPart]:
     """Return the match of a part and a whole, and what a match of whole shapes says about parts.
 
-    The match is ``None`` where each shape covers the other. ``least_scale`` and
-    ``clear_area``: see :class:`kfmaps.matching.partial.place_part.PartTask`.
+    The match is ``None`` where each shape covers the other. ``least_scale`` and ``clear_area``: see
+    :class:`kfmaps.matching.partial.place_part.PartTask`.
     """
     with task.clock("parts"):
         part, covers = match_partial(task, which, reason, least_scale, clear_area)

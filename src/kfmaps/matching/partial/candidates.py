@@ -3,7 +3,8 @@
 A margin means nothing if no alternative was seriously tried. A half of a body that was cut lengthwise fits the other
 half nearly as well, turned front to back, and whichever of the two a search has found first attracts other placements.
 So relaxation and beam searches run again at scales near that of the best placement, with a cost for places near those
-of its samples. Then the first few distinct candidates are refined by the same steps.
+of its samples. Then the first few distinct candidates are refined by the same steps. The best at last grows anew from
+each of its regions, since a limb may lie on another (research/body-model.md).
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 2. Samples are placed at many scales, and the likeliest placements are refined
    (:mod:`~kfmaps.matching.partial.scale_search`).
 3. The part is registered quickly from each placement, and alternatives that place it elsewhere are compared
-   (:mod:`~kfmaps.matching.partial.candidates`).
+   (:mod:`~kfmaps.matching.partial.candidates`). The best grows anew from each of its regions.
 4. The best candidate is registered fully, on all vertices in the end (:mod:`~kfmaps.matching.partial.registration`).
 """
 
