@@ -41,7 +41,7 @@ VERDICTS = {
     "sure": "Very likely right.",
     "likely": "Probably right. Look at it before you rely on it.",
     "ambiguous": "Another map fits about as well. Compare the two.",
-    "unlikely": "Probably wrong: no map fits well. The shapes may differ too much, or --partial must say which is a part.",
+    "unlikely": "Probably wrong: no map fits well. The shapes may differ too much, or --partial must name the part.",
     "unchecked": "One fit, compared with no other map. Without landmarks it may swap left and right.",
 }
 """Meaning of each verdict."""
