@@ -230,6 +230,21 @@ def found_by(source: Mesh, target: Mesh) -> tuple[kfmaps.Match, np.ndarray, str]
     return found, found.target_to_source >= 0, f"{told:18} {time.process_time() - begun:6.1f}"
 
 
+def judged(name: str, source: Mesh, target: Mesh, truth: np.ndarray) -> tuple[bool, bool]:
+    """Print how two shapes are matched; return whether that is right, and sure. ``truth (n_t,)``: source vertices."""
+    found, known, told = found_by(source, target)
+    errors = 100 * kfmaps.geodesic_errors(source, found.target_to_source[known], truth[known])
+    missing = 1 - known.mean()
+    print(f"{name} {errors.mean():7.2f} {missing:8.0%}   {told}", flush=True)
+    return bool(errors.mean() < RIGHT and missing < 0.1), found.verdict == "sure"
+
+
+def print_summary(rows: list[tuple[bool, bool]]) -> None:
+    """Print how many maps are right, sure, and both."""
+    right, sure = np.array(rows).T
+    print(f"{len(rows)} maps, {right.sum()} right; {sure.sum()} sure, {(sure & ~right).sum()} of them wrong")
+
+
 def half_a_period(animal: Animal, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """Two poses of somebody who walks or runs, (n, 3) each, half a period apart."""
     walks = [frames for name, frames in animal.poses.items() if "walk" in name or "run" in name]
@@ -245,11 +260,7 @@ def in_two_poses(name: str, animal: Animal, number: int, arguments: argparse.Nam
     source, own_s, pose_s, _ = meshed(animal, first, FACES, rng, coarse)
     target, own_t, pose_t, _ = meshed(animal, second, FACES - 1000, rng, coarse)
     truth = KDTree(own_s).query(pose_s[KDTree(pose_t).query(own_t)[1]])[1]
-    found, known, told = found_by(source, target)
-    errors = 100 * kfmaps.geodesic_errors(source, found.target_to_source[known], np.asarray(truth)[known])
-    missing = 1 - known.mean()
-    print(f"{name:24} {number:4} {errors.mean():7.2f} {missing:8.0%}   {told}", flush=True)
-    return bool(errors.mean() < RIGHT and missing < 0.1), found.verdict == "sure"
+    return judged(f"{name:24} {number:4}", source, target, np.asarray(truth))
 
 
 def across(names: tuple[str, str], animals: tuple[Animal, Animal], number: int) -> tuple[bool, bool]:
@@ -300,8 +311,7 @@ def main() -> None:
         for name, animal in animals.items():
             for number in range(arguments.first, arguments.first + arguments.pairs):
                 rows.append(in_two_poses(name, animal, number, arguments))
-    right, sure = np.array(rows).T
-    print(f"{len(rows)} maps, {right.sum()} right; {sure.sum()} sure, {(sure & ~right).sum()} of them wrong")
+    print_summary(rows)
 
 
 if __name__ == "__main__":

@@ -580,8 +580,8 @@ MUTANTS = tuple(
         ("i + 1 >= _ROUNDS[0] and one.score", "one.score", "test_parts_alternatives"),
         ("if one.score > least else one for one in chosen", "for one in chosen", "test_parts_alternatives"),
         (
-            "scale = one.placement.scale if pair.fixed_scale else one.registration.scale * one.registration.edge_ratio",
-            "scale = 0.9 * one.placement.scale",
+            "scale = placement.scale if pair.fixed_scale else found.scale * found.edge_ratio",
+            "scale = 0.9 * placement.scale",
             "test_parts_alternatives",
         ),
         ("cost[: pair.part.n_landmarks] = 0.0", "cost[: pair.part.n_landmarks] = 1.0", "test_parts_other_placements"),
@@ -1128,7 +1128,7 @@ MUTANTS = tuple(
         ("(similarity - away**2)", "similarity", "test_parts_alternatives -k near_where"),
         (
             "return _measure_candidate(lies, found",
-            "return found or (lies, found",
+            "return _measure_candidate(placement, found",
             "test_parts_alternatives -k near_where",
         ),
         # where the search for a part ends early, and what comes before the full one

@@ -17,13 +17,11 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
-from automatic import RIGHT
 from bent_copies import Side, remeshed
-from game_animals import found_by
+from game_animals import judged, print_summary
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-import kfmaps
 from kfmaps.datasets import largest_piece
 from kfmaps.geometry.mesh import Mesh
 
@@ -146,13 +144,8 @@ def main() -> None:
     for number in range(arguments.first, arguments.first + arguments.pairs):
         source, target, ages = pair(bodies, number, arguments)
         truth = np.asarray(KDTree(source.places).query(target.places)[1])
-        found, known, told = found_by(source.mesh, target.mesh)
-        errors = 100 * kfmaps.geodesic_errors(source.mesh, found.target_to_source[known], truth[known])
-        missing = 1 - known.mean()
-        print(f"{ages:12} {number:4} {errors.mean():7.2f} {missing:10.0%}  {told}", flush=True)
-        rows.append((errors.mean() < RIGHT and missing < 0.1, found.verdict == "sure"))
-    right, sure = np.array(rows).T
-    print(f"{len(rows)} maps, {right.sum()} right; {sure.sum()} sure, {(sure & ~right).sum()} of them wrong")
+        rows.append(judged(f"{ages:12} {number:4}", source.mesh, target.mesh, truth))
+    print_summary(rows)
 
 
 if __name__ == "__main__":

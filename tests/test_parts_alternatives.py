@@ -169,14 +169,14 @@ def test_samples_are_placed_by_their_descriptors_near_where_they_lie(half, monke
     is_near = away[each, second] < 0.05
     alike[is_near, second[is_near]] = 1.0  # each looks most like the second nearest
     alike[each, away.argmax(axis=1)] = 9.0
-    asked = []
+    asked, register_quickly = [], candidates_module._register_quickly
 
-    def made(placement, pair):
+    def registered(placement, pair):
         asked.append(placement)
-        return make_candidate(placement, pair)
+        return register_quickly(placement, pair)
 
     monkeypatch.setattr(candidates_module, "shot_similarity", lambda *_: alike)
-    monkeypatch.setattr(candidates_module, "make_candidate", made)
+    monkeypatch.setattr(candidates_module, "_register_quickly", registered)
     moved = candidates_module._place_nearby(one, on)
     assert is_near.sum() > 20
     np.testing.assert_array_equal(asked[0].placed.match[is_near], second[is_near])

@@ -48,11 +48,16 @@ class PartCandidate:
 
 def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     """Register the part quickly by a placement of all samples."""
+    return _measure_candidate(placement, _register_quickly(placement, pair), pair)
+
+
+def _register_quickly(placement: Placement, pair: PartPair) -> PartRegistration:
+    """Return the quick registration of the part by a placement of all samples."""
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
     least_trust = 1e-4 if pair.both_partial else 0.01  # many samples of two parts have no place on the other
     trust = np.maximum(placement.placed.trust, least_trust)
-    return _measure_candidate(placement, register_part(pair, placement.scale, points, normals, trust, quick=True), pair)
+    return register_part(pair, placement.scale, points, normals, trust, quick=True)
 
 
 def _measure_candidate(placement: Placement, found: PartRegistration, pair: PartPair) -> PartCandidate:
@@ -159,7 +164,10 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
 
 def _grow(one: PartCandidate, seed: int, pair: PartPair) -> Placement:
     """Return a placement of all samples that keeps what lies around the sample ``seed``, and grows from there."""
-    placement, away = _placement_where_it_lies(one, pair), one.registration.scale * pair.part.distances[seed]
+    placement, away = (
+        _placement_where_it_lies(one.placement, one.registration, pair),
+        one.registration.scale * pair.part.distances[seed],
+    )
     for radius in (0.2, 0.3, 0.5, 0.8):  # in √area of the whole, within which samples are trusted
         trust = np.where(away < radius, np.maximum(placement.placed.trust, 1e-6), 0.0)
         placement = place_all(pair, replace(placement, placed=replace(placement.placed, trust=trust)))
@@ -185,32 +193,32 @@ def _place_nearby(one: PartCandidate, pair: PartPair) -> PartCandidate:
 
     Distances have no say: between unlike bodies they differ, and placing by them moves the samples away.
     """
-    placement = _placement_where_it_lies(one, pair)
+    placement = _placement_where_it_lies(one.placement, one.registration, pair)
     similarity = shot_similarity(pair, placement.scale, placement.params)
     there = pair.whole.mesh.vertices[pair.whole.samples]
     away = np.linalg.norm(one.points[:, None] - there[None], axis=2) / SCORE.part.distinct_distance
     match = (similarity - away**2).argmax(axis=1)
     match[: pair.part.n_landmarks] = placement.placed.match[: pair.part.n_landmarks]
     placement = replace(placement, similarity=similarity, placed=replace(placement.placed, match=match))
-    found = make_candidate(placement, pair)
+    found = _register_quickly(placement, pair)
     # Places that were chosen because they look alike say nothing for the placement, those to which they lead do.
-    lies = replace(_placement_where_it_lies(found, pair), scale=placement.scale)
-    return _measure_candidate(lies, found.registration, pair)
+    lies = replace(_placement_where_it_lies(placement, found, pair), scale=placement.scale)
+    return _measure_candidate(lies, found, pair)
 
 
 def _place_again(one: PartCandidate, pair: PartPair) -> PartCandidate:
     """Place and register the part once more, at the scale of its edges."""
-    return make_candidate(refine_placement(pair, _placement_where_it_lies(one, pair)), pair)
+    return make_candidate(refine_placement(pair, _placement_where_it_lies(one.placement, one.registration, pair)), pair)
 
 
-def _placement_where_it_lies(one: PartCandidate, pair: PartPair) -> Placement:
-    """Return the placement of all samples where the registration has moved them, at the scale of the part's edges."""
-    match = np.asarray(KDTree(pair.whole.mesh.vertices[pair.whole.samples]).query(one.points)[1])
+def _placement_where_it_lies(placement: Placement, found: PartRegistration, pair: PartPair) -> Placement:
+    """Return the placement of all samples where a registration has moved them, at the scale of the part's edges."""
+    points = found.places.points[pair.part.samples]
+    match = np.asarray(KDTree(pair.whole.mesh.vertices[pair.whole.samples]).query(points)[1])
     match[: pair.part.n_landmarks] = np.arange(pair.part.n_landmarks)
-    trust = np.maximum(one.registration.inside[pair.part.samples], 1e-3)
-    placed = Assignment(match, trust, one.placement.placed.support)
-    scale = one.placement.scale if pair.fixed_scale else one.registration.scale * one.registration.edge_ratio
-    return replace(one.placement, scale=scale, placed=placed)
+    placed = Assignment(match, np.maximum(found.inside[pair.part.samples], 1e-3), placement.placed.support)
+    scale = placement.scale if pair.fixed_scale else found.scale * found.edge_ratio
+    return replace(placement, scale=scale, placed=placed)
 
 
 def _differ(one: PartCandidate, other: PartCandidate) -> bool:
