@@ -31,6 +31,7 @@ from kfmaps.matching.partial.candidates import (
     margin,
     regrow_best,
 )
+from kfmaps.matching.partial.one_view import is_one_view
 from kfmaps.matching.partial.registration import (
     Overlap,
     PartRegistration,
@@ -116,7 +117,8 @@ def place_part(
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
     on_whole = proxies[1].vertices[samples[1].samples]
     find_images = None if task.self_images is None else partial(task.self_images, on_whole)
-    pair = PartPair(samples[0], samples[1], fixed, both_partial, small, find_images)
+    one_view = not both_partial and is_one_view(proxies[0].mesh) and not is_one_view(proxies[1].mesh)
+    pair = PartPair(samples[0], samples[1], fixed, both_partial, small, one_view, find_images)
     report(0.15)
     found = _search_placements(pair, task, report)
     report(0.75)

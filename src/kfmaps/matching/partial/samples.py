@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,9 +13,15 @@ from scipy.sparse.csgraph import dijkstra
 from kfmaps.descriptors.shot import shot
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
-from kfmaps.geometry.mesh import Mesh, boundary_vertices
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
+from kfmaps.matching.partial.one_view import views
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
+
+
+_SUPPORT = 10_000
+"""Support points of SHOT on a shape, half of those for a descriptor at every vertex. With fewer in large balls a person
+with holes was placed wrongly."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +49,9 @@ class PartSamples(PartSurface):
     distances: np.ndarray  # (q, q): along the surface; infinite between components
     boundary_distance: np.ndarray  # (q,): infinite where there is no boundary
     n_landmarks: int = 0
-    # SHOT at the samples by its radius, as computed by :meth:`shot` so far.
+    # SHOT by its radius, as computed by :meth:`shot` and :meth:`shot_of_views` so far.
     descriptors: dict[float, np.ndarray] = field(default_factory=dict)
+    view_descriptors: dict[float, list[tuple[np.ndarray, np.ndarray]]] = field(default_factory=dict)
 
     @property
     def landmarks(self) -> np.ndarray:
@@ -52,13 +60,21 @@ class PartSamples(PartSurface):
 
     def shot(self, radius: float) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
-        # Support points, half of those for a descriptor at every vertex. With fewer in large balls a person with holes
-        # was placed wrongly.
-        support = 10_000
         if radius not in self.descriptors:
-            found = shot(self.mesh, radius, at=self.samples, samples=support)
+            found = shot(self.mesh, radius, at=self.samples, samples=_SUPPORT)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
+
+    def shot_of_views(self, radius: float) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return for each view of the shape which samples are seen, (v,), and their SHOT of what is seen, (v, 352)."""
+        if radius not in self.view_descriptors:
+            found = []
+            for mesh, number in views(self.mesh):
+                seen, area = np.flatnonzero(number[self.samples] >= 0), surface_area(mesh)
+                at, support = number[self.samples[seen]], max(round(_SUPPORT * area), 1)
+                found.append((seen, shot(mesh, radius / math.sqrt(area), at=at, samples=support).astype(np.float32)))
+            self.view_descriptors[radius] = found
+        return self.view_descriptors[radius]
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +86,7 @@ class PartPair:
     fixed_scale: bool = False  # whether the scale of the part is known
     both_partial: bool = False  # whether the whole may lack something too
     small_scale: float | None = None  # √area of a small part over that of the whole in their files
+    one_view: bool = False  # whether the part is the scan of one camera
     find_self_images: Callable[[], np.ndarray] | None = None  # returns :attr:`self_images`
 
     @cached_property

@@ -60,17 +60,31 @@ class Placement:
 def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> np.ndarray:
     """Return mean products ``(q, m)`` of the SHOT of both shapes, in balls of equal size; landmarks match each other.
 
-    Samples of a small part are weighted: near its boundary their descriptors are not those of the whole.
+    The scan of one camera is compared with each view of the whole, and the most similar one counts. Samples of another
+    small part are weighted: near its boundary their descriptors are not those of the whole.
     """
     near = _shot_scale(scale)
-    total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
-    similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
-    if pair.small_scale is not None:
+    if pair.one_view:
+        similarity = _similarity_to_views(pair, near, params.radii)
+    else:
+        total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
+        similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
+    if pair.small_scale is not None and not pair.one_view:
         similarity *= pair.shot_weights(scale, max(params.radii))[:, None]
     landmarks = np.arange(pair.part.n_landmarks)
     similarity[landmarks] = -1.0
     similarity[landmarks, landmarks] = 2.0
     return similarity
+
+
+def _similarity_to_views(pair: PartPair, scale: float, radii: Sequence[float]) -> np.ndarray:
+    """Return the mean products (q, m) of SHOT of the part and of the view of the whole that is most similar."""
+    own = np.concatenate([pair.part.shot(radius / scale) for radius in radii], axis=1) / np.float32(len(radii))
+    most = np.zeros((len(own), len(pair.whole.samples)), dtype=np.float32)
+    for views in zip(*(pair.whole.shot_of_views(radius) for radius in radii), strict=True):
+        seen = views[0][0]
+        most[:, seen] = np.maximum(most[:, seen], own @ np.concatenate([found for _, found in views], axis=1).T)
+    return most
 
 
 def _shot_scale(scale: float) -> float:
@@ -126,7 +140,7 @@ def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
 def _compute_shot(pair: PartPair, params: RelaxationParams) -> None:
     """Compute the SHOT of the whole, which placements at all scales share."""
     for radius in params.radii:
-        pair.whole.shot(radius)
+        _ = pair.whole.shot_of_views(radius) if pair.one_view else pair.whole.shot(radius)
 
 
 def place_all(pair: PartPair, one: Placement) -> Placement:

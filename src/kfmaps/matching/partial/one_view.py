@@ -1,0 +1,47 @@
+"""Compare the scan of one camera with what single cameras would see of a whole.
+
+A scan of one camera is a third to a half of the surface, everywhere near its boundary. So nearly all balls of SHOT are
+cut, and SHOT there is unlike that of the whole. But it ends where the surface turns away from the camera. SHOT of the
+whole's faces that are turned to one side is cut likewise, and what is right is then most similar from some side.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps.geometry.connectivity import renumbering
+from kfmaps.geometry.mesh import Mesh, face_areas, face_normals
+
+_DIRECTIONS = 24
+"""Directions that the whole is seen from; 60 are hardly better (research/body-model.md)."""
+_LEAST_COSINE = 0.1
+"""Cosine between a normal and the direction to the camera from which a face is seen."""
+
+
+def is_one_view(mesh: Mesh) -> bool:
+    """Return whether one camera could have seen nearly all of a surface: its faces are turned to one side."""
+    min_share = 0.95  # of the area; noise turns some faces away
+    normals, areas = face_normals(mesh), face_areas(mesh)
+    middle = areas @ normals
+    return float(areas[normals @ middle > 0].sum()) >= min_share * float(areas.sum())
+
+
+def views(mesh: Mesh) -> list[tuple[Mesh, np.ndarray]]:
+    """Return what is turned to each of some directions, and its number of each vertex, (n,), or -1.
+
+    What hides it does not count: bodies of other poses hide other things.
+    """
+    normals, n, found = face_normals(mesh), len(mesh.vertices), []
+    for direction in _spread_directions(_DIRECTIONS):
+        faces = mesh.faces[normals @ direction > _LEAST_COSINE]
+        kept = np.unique(faces)
+        number = renumbering(kept, n)
+        found.append((Mesh(mesh.vertices[kept], number[faces]), number))
+    return found
+
+
+def _spread_directions(count: int) -> np.ndarray:
+    """Return unit vectors (count, 3) spread evenly: a spiral on the sphere with the golden angle between them."""
+    z = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.pi * (3 - np.sqrt(5)) * np.arange(count)
+    return np.stack([*(np.sqrt(1 - z**2) * (np.cos(turn), np.sin(turn))), z], axis=1)
