@@ -92,6 +92,9 @@ class PartScoring:
     """Weight of the root mean squared distance between the surfaces, in √area of the whole."""
     w_flipped: float = 4.0
     """Weight of the share of the area whose normals contradict the whole's."""
+    w_doubled: float = 10.0
+    """Weight of the share of the area that lies where more of the part lies: right placements have up to 0.01, two legs
+    on one 0.2."""
     w_deformation: float = 3.0
     """Weight of the logarithm of the deformation energy. A half of a body placed on the other half, front to back,
     differs from the right placement in nothing else."""
@@ -366,6 +369,7 @@ class PartEvidence:
     deformation_energy: float = math.inf  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
     gap: float = 0.0
     flipped_area: float = 0.0
+    doubled_area: float = 0.0
     # Consistency of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
     # Absolute logarithm of the ratio of the scale of a small part to that of its file.
@@ -425,7 +429,7 @@ def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -
 def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
     """Return the score of a placement of a part, higher is better."""
     score = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap
-    score -= numbers.w_flipped * evidence.flipped_area
+    score -= numbers.w_flipped * evidence.flipped_area + numbers.w_doubled * evidence.doubled_area
     score += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
     score -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
     score -= evidence.landmark_cost

@@ -69,6 +69,7 @@ def _measure_candidate(placement: Placement, found: PartRegistration, pair: Part
         deformation_energy=found.deformation_energy,
         gap=found.gap,
         flipped_area=found.flipped_area,
+        doubled_area=found.doubled_area,
         landmark_cost=part_landmark_cost(errors, pair.both_partial),
     )
     if pair.small_scale is not None:

@@ -17,7 +17,7 @@ from kfmaps.geometry.arap import arap_energy, build_arap, rotations
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.coarsen import CoarseProxy, embedded_deformation
 from kfmaps.geometry.connectivity import half_edges
-from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_normals
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_areas, vertex_normals
 from kfmaps.matching.partial.samples import PartPair, PartSurface
 from kfmaps.registration.deformable import (
     DataTerm,
@@ -49,6 +49,7 @@ class PartRegistration:
     deformation_energy: float  # as-rigid-as-possible energy per area
     gap: float  # root of the mean squared distance from the whole
     flipped_area: float  # share of the area whose normals contradict those of the whole
+    doubled_area: float  # share of the area on the whole that lies where more of the part lies
     edge_ratio: float  # median ratio of the lengths of edges after and before
 
 
@@ -139,8 +140,21 @@ def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, who
         arap_energy(body.energy, x) / float(surface_area(rest)),
         float(np.sqrt(np.average(found.distances**2, weights=on))) if on.any() else 1.0,
         float(areas[cosine < 0.3].sum() / areas.sum()),
+        _doubled_area(Mesh(x, rest.faces), inside, whole),
         float(np.median(longer)),
     )
+
+
+def _doubled_area(part: Mesh, inside: np.ndarray, whole: PartSurface) -> float:
+    """Return the share of the area of a registered part, (n,) bool ``inside``, that lies where more of it lies.
+
+    It is what the part has more than it covers of the whole. Two legs may lie on one, each by itself as it should.
+    """
+    found, _, agree = closest_point_query(part)(whole.mesh.vertices, whole.surface.normals)
+    beyond = _at_boundary(found, part.faces, boundary_vertices(part))
+    covered = ~beyond & (found.distances < _OVERLAP_WIDTH) & (agree > 0)
+    own = float(vertex_areas(part) @ inside)
+    return max(1.0 - float(vertex_areas(whole.mesh) @ covered) / own, 0.0) if own > 0 else 0.0
 
 
 def _is_inside(found: ClosestPoints, whole: PartSurface) -> np.ndarray:
