@@ -103,6 +103,8 @@ class PartScoring:
     other_scale: float = 0.26
     """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.3. Right parts have up to
     1.16 from one person to another."""
+    full_view_scale: float = 0.45
+    """Scale from which the scan of one camera may show the whole, whatever its file says: 24 people have 0.45 to 0.66."""
     base_deformation: float = 0.005
     """Deformation energy of any part, by its mesh alone."""
     distinct_distance: float = 0.1

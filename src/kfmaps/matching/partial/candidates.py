@@ -72,7 +72,8 @@ def _measure_candidate(placement: Placement, found: PartRegistration, pair: Part
         doubled_area=found.doubled_area,
         landmark_cost=part_landmark_cost(errors, pair.both_partial),
     )
-    if pair.small_scale is not None:
+    is_full_view = pair.one_view and placement.scale > SCORE.part.full_view_scale
+    if pair.small_scale is not None and not is_full_view:
         evidence = replace(evidence, scale_change=abs(math.log(placement.scale / pair.small_scale)))
     if pair.both_partial:
         evidence = replace(evidence, pair_consistency=_overlap_consistency(found, pair))
@@ -151,16 +152,18 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
     """Add the best candidate that keeps one region of the first of ``order`` and places all else anew.
 
     A placement is often right but for a limb that lies on another. Grown outwards from a region that is right, the limb
-    is placed by its distances from there.
+    is placed by its distances from there. Of the scan of one camera the second distinct candidate grows too.
     """
     n_regions = 8  # around the first samples, which are far from each other
-    seeds = range(min(n_regions, len(pair.part.samples)))
-    grown = by_score(parallel(lambda seed: make_candidate(_grow(order[0], seed, pair), pair), seeds))[0]
-    if grown.score < order[0].score - SCORE.part.hopeless_margin:
-        return order
-    grown = _refine_candidate(grown, pair)
-    is_new = _differ(grown, order[0]) or grown.score >= order[0].score + SCORE.part.min_gain
-    return by_score([*order, grown]) if is_new else order
+    seeds, found = range(min(n_regions, len(pair.part.samples))), list(order)
+    for one in select_distinct(order, _differ, 2 if pair.one_view else 1):
+        grown = by_score(parallel(lambda seed, one=one: make_candidate(_grow(one, seed, pair), pair), seeds))[0]
+        if grown.score < order[0].score - SCORE.part.hopeless_margin:
+            continue
+        grown = _refine_candidate(grown, pair)
+        if _differ(grown, one) or grown.score >= one.score + SCORE.part.min_gain:
+            found.append(grown)
+    return by_score(found)
 
 
 def _grow(one: PartCandidate, seed: int, pair: PartPair) -> Placement:
