@@ -65,9 +65,9 @@ class Calibration:
     """Largest probability unless landmarks raise it."""
 
 
-def _part_calibration(slope: float, middle: float) -> Calibration:
+def _part_calibration(slope: float, middle: float, tie: float = 1.3) -> Calibration:
     """Return the calibration of parts, which have one logistic function."""
-    return Calibration(slope, middle, steep_middle=math.inf, tie=1.3, max_margin=3.0)
+    return Calibration(slope, middle, steep_middle=math.inf, tie=tie, max_margin=3.0)
 
 
 @dataclass(frozen=True)
@@ -78,6 +78,8 @@ class PartScoring:
     """Fitted by `benchmarks/parts_verdict.py`."""
     calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9))
     """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`."""
+    calibration_of_view: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2, tie=1.6))
+    """The same for scans of one camera, whose wrong placements have had a margin of 2.1."""
     max_fit_of_unknown_unit: float = 0.89
     """:attr:`Calibration.max_fit` of two parts unless their unit is known to be one: boxes of other sizes fit too."""
     w_consistency: float = 4.0
@@ -104,7 +106,8 @@ class PartScoring:
     """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.3. Right parts have up to
     1.16 from one person to another."""
     full_view_scale: float = 0.45
-    """Scale from which the scan of one camera may show the whole, whatever its file says: 24 people have 0.45 to 0.66."""
+    """Scale from which the scan of one camera may show all of a whole: 24 people have 0.45 to 0.66. Less costs as the
+    scale of a small part does."""
     base_deformation: float = 0.005
     """Deformation energy of any part, by its mesh alone."""
     distinct_distance: float = 0.1
@@ -371,12 +374,12 @@ class PartEvidence:
     deformation_energy: float = math.inf  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
     gap: float = 0.0
     flipped_area: float = 0.0
-    doubled_area: float = 0.0
     # Consistency of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
     # Absolute logarithm of the ratio of the scale of a small part to that of its file.
     scale_change: float = 0.0
     landmark_cost: float = 0.0  # of landmarks with errors above :attr:`PartScoring.max_landmark_error`
+    doubled_area: float = 0.0
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:

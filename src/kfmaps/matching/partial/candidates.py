@@ -72,9 +72,10 @@ def _measure_candidate(placement: Placement, found: PartRegistration, pair: Part
         doubled_area=found.doubled_area,
         landmark_cost=part_landmark_cost(errors, pair.both_partial),
     )
-    is_full_view = pair.one_view and placement.scale > SCORE.part.full_view_scale
-    if pair.small_scale is not None and not is_full_view:
-        evidence = replace(evidence, scale_change=abs(math.log(placement.scale / pair.small_scale)))
+    usual = pair.small_scale or (SCORE.part.full_view_scale if pair.is_one_view else None)
+    is_full_view = pair.is_one_view and placement.scale > SCORE.part.full_view_scale
+    if usual is not None and not is_full_view:
+        evidence = replace(evidence, scale_change=abs(math.log(placement.scale / usual)))
     if pair.both_partial:
         evidence = replace(evidence, pair_consistency=_overlap_consistency(found, pair))
     return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
@@ -156,7 +157,7 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
     """
     n_regions = 8  # around the first samples, which are far from each other
     seeds, found = range(min(n_regions, len(pair.part.samples))), list(order)
-    for one in select_distinct(order, _differ, 2 if pair.one_view else 1):
+    for one in select_distinct(order, _differ, 2 if pair.is_one_view else 1):
         grown = by_score(parallel(lambda seed, one=one: make_candidate(_grow(one, seed, pair), pair), seeds))[0]
         if grown.score < order[0].score - SCORE.part.hopeless_margin:
             continue

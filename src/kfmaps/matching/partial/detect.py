@@ -8,6 +8,7 @@ from typing import Literal
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.connectivity import boundary_edges
 from kfmaps.geometry.mesh import Mesh, boundary_loops, surface_area
+from kfmaps.matching.partial.one_view import is_view_of
 from kfmaps.matching.score import SCORE
 
 
@@ -20,6 +21,7 @@ class PartDetection:
     opening: float = 0.0  # of the more open shape: the least area that is missing, over its own area
     both_open: bool = False  # whether something may be missing of both
     more_open: Literal["source", "target"] | None = None
+    is_one_view: bool = False  # whether the part is the scan of one camera
 
 
 def _boundary_opening(mesh: Mesh) -> float:
@@ -47,7 +49,8 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     both_open = openings[whole] >= SCORE.part.min_opening
     if openings[part] >= SCORE.part.opening_ratio * openings[whole]:
         reason = f"the {part} has long open boundaries, and the {whole} has " + ("shorter ones" if both_open else "not")
-        return PartDetection(part, reason, openings[part], both_open, part)
+        meshes = (source, target) if part == "source" else (target, source)
+        return PartDetection(part, reason, openings[part], both_open, part, is_view_of(*meshes))
     if both_open:
         return PartDetection("both", "both have long open boundaries", openings[part], both_open, part)
     return PartDetection("none", "both have open boundaries alike", openings[part])

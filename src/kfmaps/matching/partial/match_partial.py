@@ -64,7 +64,7 @@ def match_partial(
         None if which == "both" else partial(self_images, whole, rng=task.seed),
     )
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
-    numbers = SCORE.part.calibration_of_two if which == "both" else SCORE.part.calibration
+    numbers = placing.calibration
     if which == "both" and settings.scale != "fixed":
         numbers = replace(numbers, max_fit=SCORE.part.max_fit_of_unknown_unit)
     found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")

@@ -18,8 +18,13 @@ _LEAST_COSINE = 0.1
 """Cosine between a normal and the direction to the camera from which a face is seen."""
 
 
-def is_one_view(mesh: Mesh) -> bool:
-    """Return whether one camera could have seen nearly all of a surface: its faces are turned to one side."""
+def is_view_of(part: Mesh, whole: Mesh) -> bool:
+    """Return whether one camera could have seen nearly all of a part, but not of the whole."""
+    return _is_one_view(part) and not _is_one_view(whole)
+
+
+def _is_one_view(mesh: Mesh) -> bool:
+    """Return whether the faces of a mesh are turned to one side."""
     min_share = 0.85  # of the area; bodies cut by planes have up to 0.7
     normals, areas = face_normals(mesh), face_areas(mesh)
     middle = areas @ normals

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from kfmaps.matching.partial.candidates import (
     margin,
     regrow_best,
 )
-from kfmaps.matching.partial.one_view import is_one_view
+from kfmaps.matching.partial.one_view import is_view_of
 from kfmaps.matching.partial.registration import (
     Overlap,
     PartRegistration,
@@ -51,7 +51,7 @@ from kfmaps.matching.partial.scale_search import (
     search_scale,
     try_scales,
 )
-from kfmaps.matching.score import SCORE, by_score, select_distinct, verdict
+from kfmaps.matching.score import SCORE, Calibration, by_score, select_distinct, verdict
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a coarse proxy is placed, and of the proxy
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
@@ -92,6 +92,18 @@ class PartTask:
     # Returns the images of vertices of a whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
     self_images: Callable[[np.ndarray], np.ndarray] | None = None
 
+    @cached_property
+    def is_one_view(self) -> bool:
+        """Whether the part is the scan of one camera (:mod:`kfmaps.matching.partial.one_view`)."""
+        return not self.both_partial and is_view_of(self.part, self.whole)
+
+    @property
+    def calibration(self) -> Calibration:
+        """The numbers of the verdict."""
+        if self.both_partial:
+            return SCORE.part.calibration_of_two
+        return SCORE.part.calibration_of_view if self.is_one_view else SCORE.part.calibration
+
 
 def place_part(
     task: PartTask, landmarks: np.ndarray | None = None, progress: Callable[[float], None] | None = None
@@ -117,8 +129,7 @@ def place_part(
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
     on_whole = proxies[1].vertices[samples[1].samples]
     find_images = None if task.self_images is None else partial(task.self_images, on_whole)
-    one_view = not both_partial and is_one_view(proxies[0].mesh) and not is_one_view(proxies[1].mesh)
-    pair = PartPair(samples[0], samples[1], fixed, both_partial, small, one_view, find_images)
+    pair = PartPair(samples[0], samples[1], fixed, both_partial, small, task.is_one_view, find_images)
     report(0.15)
     found = _search_placements(pair, task, report)
     report(0.75)
@@ -157,7 +168,7 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     supported: list[Placement] = []
     for some in ([ratio], scales) if ratio in scales[1:] else (scales,):
         supported = try_scales(pair, some)
-        found = _clear_placements(pair, supported[0])
+        found = _clear_placements(pair, supported[0], task.calibration)
         if found:
             return found
     if supported[0].scale ** 2 >= task.clear_area:
@@ -177,7 +188,7 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     return regrow_best(compare_alternatives(found, pair), pair)
 
 
-def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidate]:
+def _clear_placements(pair: PartPair, placement: Placement, calibration: Calibration) -> list[PartCandidate]:
     """Return a placement registered, with its alternatives; none unless it is clear and would be called "sure".
 
     A score says little of a single limb that lies elsewhere. Two relaxations rarely agree on it, so another one has to
@@ -194,7 +205,7 @@ def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidat
     if float((apart < numbers.distinct_distance).mean()) < numbers.early_exit_agreement:
         return []
     order = compare_alternatives([found], pair)
-    is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=numbers.calibration) == "sure"
+    is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=calibration) == "sure"
     return order if is_sure else []
 
 

@@ -18,7 +18,6 @@ from kfmaps.matching.partial.one_view import views
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
-
 _SUPPORT = 10_000
 """Support points of SHOT on a shape, half of those for a descriptor at every vertex. With fewer in large balls a person
 with holes was placed wrongly."""
@@ -86,7 +85,7 @@ class PartPair:
     fixed_scale: bool = False  # whether the scale of the part is known
     both_partial: bool = False  # whether the whole may lack something too
     small_scale: float | None = None  # √area of a small part over that of the whole in their files
-    one_view: bool = False  # whether the part is the scan of one camera
+    is_one_view: bool = False  # whether the part is the scan of one camera
     find_self_images: Callable[[], np.ndarray] | None = None  # returns :attr:`self_images`
 
     @cached_property

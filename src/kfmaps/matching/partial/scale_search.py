@@ -64,12 +64,12 @@ def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> n
     small part are weighted: near its boundary their descriptors are not those of the whole.
     """
     near = _shot_scale(scale)
-    if pair.one_view:
+    if pair.is_one_view:
         similarity = _similarity_to_views(pair, near, params.radii)
     else:
         total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
         similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
-    if pair.small_scale is not None and not pair.one_view:
+    if pair.small_scale is not None and not pair.is_one_view:
         similarity *= pair.shot_weights(scale, max(params.radii))[:, None]
     landmarks = np.arange(pair.part.n_landmarks)
     similarity[landmarks] = -1.0
@@ -140,7 +140,7 @@ def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
 def _compute_shot(pair: PartPair, params: RelaxationParams) -> None:
     """Compute the SHOT of the whole, which placements at all scales share."""
     for radius in params.radii:
-        _ = pair.whole.shot_of_views(radius) if pair.one_view else pair.whole.shot(radius)
+        _ = pair.whole.shot_of_views(radius) if pair.is_one_view else pair.whole.shot(radius)
 
 
 def place_all(pair: PartPair, one: Placement) -> Placement:
