@@ -611,6 +611,17 @@ def test_an_open_scan_may_hold_all_of_a_closed_shape(
     assert tried == ["target"] + ["source"] * (word != "sure" and asked == "auto")
 
 
+@pytest.mark.parametrize("is_one_view", [False, True])
+def test_the_scan_of_one_camera_does_not_hold_all_of_a_closed_shape(monkeypatch, small, is_one_view):
+    part, opposites = fake_match("ambiguous", 0.6, scale=0.5), []
+    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, False))
+    monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: opposites.append(1) or best)
+    detected = PartDetection("target", "open", 0.3, is_one_view=is_one_view)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: detected)
+    assert match_module.match(small, small, AUTO) is part
+    assert len(opposites) == 1 - is_one_view
+
+
 def test_an_open_scan_stays_the_part_where_the_other_is_given_up(monkeypatch, small):
     part, clocks = fake_match("likely", 0.6, scale=0.5), []
 

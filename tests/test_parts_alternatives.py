@@ -227,6 +227,18 @@ def test_what_regrowth_gains_too_little_or_loses_much_is_left(half, monkeypatch)
         assert len(order) == 1 + first
 
 
+def test_of_the_scan_of_one_camera_the_second_candidate_grows_too(half, monkeypatch):
+    order, grown = [stub(20.0, 0.0), stub(19.9, 0.0), stub(19.0, 1.0), stub(18.0, 2.0)], []
+    monkeypatch.setattr(candidates_module, "_grow", lambda one, *_: grown.append(one))
+    monkeypatch.setattr(candidates_module, "make_candidate", lambda *_: stub(19.5, 0.0))
+    monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_: stub(21.0, 1.0))
+    for is_one_view, starts in ((False, order[:1]), (True, [order[0], order[2]])):
+        grown.clear()
+        found: Any = candidates_module.regrow_best(order, replace(half[0], is_one_view=is_one_view))
+        assert [one for i, one in enumerate(grown) if i % 8 == 0] == starts
+        assert [one.score for one in found[: len(starts) + 1]] == [21.0] * len(starts) + [20.0]
+
+
 def test_only_candidates_that_differ_are_rivals():
     apart, most = SCORE.part.distinct_distance / np.sqrt(3), SCORE.part.calibration.max_margin
     here, near, elsewhere = stub(7.0, 0.0), stub(6.9, 0.01), stub(6.6, 1.0)
@@ -421,6 +433,7 @@ def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.Monkey
         deformation_energy=0.01,
         gap=0.0,
         flipped_area=0.0,
+        doubled_area=0.25,
         places=SimpleNamespace(points=np.eye(5)),
     )
     monkeypatch.setattr(candidates, "register_part", lambda *_, **__: found)
@@ -434,7 +447,26 @@ def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.Monkey
         one = replace(start, scale=scale)
         changed = candidates.make_candidate(one, pair).evidence.scale_change
         assert changed == pytest.approx(abs(np.log(scale / SCALE)))
-        assert candidates.make_candidate(one, replace(pair, small_scale=None)).evidence.scale_change == 0.0
+        evidence = candidates.make_candidate(one, replace(pair, small_scale=None)).evidence
+        assert (evidence.scale_change, evidence.doubled_area) == (0.0, 0.25)
+
+
+@pytest.mark.parametrize(
+    ("of_file", "scale", "usual"), [(None, 0.3, 0.45), (None, 0.46, 0.46), (0.3, 0.35, 0.3), (0.3, 0.46, 0.46)]
+)
+def test_the_scan_of_one_camera_is_small_only_if_its_file_says_so(of_file, scale, usual, pair):
+    registered: Any = SimpleNamespace(
+        vertices=np.eye(5, 3),
+        deformation_energy=0.01,
+        gap=0.0,
+        flipped_area=0.0,
+        doubled_area=0.0,
+        places=SimpleNamespace(points=np.eye(5)),
+    )
+    placement = Placement(scale, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), np.eye(5))
+    view = replace(pair, is_one_view=True, small_scale=of_file)
+    found = candidates._measure_candidate(placement, registered, view)
+    assert found.evidence.scale_change == pytest.approx(abs(np.log(scale / usual)))
 
 
 def test_all_placements_at_a_known_scale_are_registered_and_the_best_that_differ_kept(

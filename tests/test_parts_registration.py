@@ -12,6 +12,7 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_are
 from kfmaps.matching.partial.registration import (
     _BEYOND,
     _OVERLAP_WIDTH,
+    _doubled_area,
     _is_inside,
     _measure_registration,
     find_overlap,
@@ -140,6 +141,31 @@ def test_edges_tell_the_scale(shapes, laid, factor):
 def test_a_mirror_image_is_folded(laid):
     lay, _, part, _ = laid
     assert lay(more=inside_out(part)).flipped_area > 0.5
+
+
+def test_what_lies_on_more_of_the_part_is_doubled(shapes):
+    """The half of a whole, and a third of the half once more on the same place, a little above."""
+    whole, half, _ = shapes
+    on = sampled(whole)
+    everywhere = np.ones(len(half.vertices), dtype=bool)
+    assert _doubled_area(half, everywhere, on) < 0.02
+    third = half.faces[: len(half.faces) // 3]
+    own = np.unique(third)
+    more = Mesh(np.concatenate([half.vertices, half.vertices[own] + 1e-3]), half.faces)
+    number = np.zeros(len(half.vertices), dtype=np.int64)
+    number[own] = len(half.vertices) + np.arange(len(own))
+    more = Mesh(more.vertices, np.concatenate([half.faces, number[third]]))
+    inside = np.ones(len(more.vertices), dtype=bool)
+    share = surface_area(Mesh(half.vertices, third)) / surface_area(half)
+    assert _doubled_area(more, inside, on) == pytest.approx(share / (1 + share), abs=0.05)
+    # What lies beyond a boundary of the whole does not count, and nothing at all is no failure.
+    inside[len(half.vertices) :] = False
+    assert _doubled_area(more, inside, on) < 0.03
+    assert _doubled_area(more, np.zeros(len(inside), dtype=bool), on) == 0.0
+    beside = Mesh(half.vertices + 0.03 * on.surface.normals[: len(half.vertices)], half.faces)
+    assert _doubled_area(beside, everywhere, on) > 0.9  # too far away to cover anything
+    measured = _measure_registration(more.vertices, deformable_mesh(more), 1.0, on)
+    assert measured.doubled_area == pytest.approx(share / (1 + share), abs=0.05)
 
 
 def test_points_beyond_the_whole_are_not_pulled_to_its_boundary(shapes):

@@ -32,7 +32,7 @@ GUARDS = ("kfmaps.matching.score",)
 QUALITY = Quality(0.9, 0.1, 0.12, 0.2, 0.1, 0.9, 0.05, 0.3)
 REGISTERED: dict[str, Any] = {"deformation_energy": 0.3, "strain": 0.4, "shot_error": 0.05}
 CANDIDATE = Candidate("a", np.eye(2), np.zeros(3, dtype=int), QUALITY, True, np.array([0.1, 0.9]), **REGISTERED)
-PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2.0)
+PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2.0, 0.03)
 
 MEASURES = {
     "w_orientation": ("orientation", 1.0),
@@ -60,6 +60,7 @@ PART_WEIGHTS = {
     "w_gap": -50.0 * 0.01,
     "w_scale": -1.5 * 0.25,
     "w_flipped": -4.0 * 0.1,
+    "w_doubled": -10.0 * 0.03,
     "w_deformation": -3.0 * np.log(0.025),
 }
 
@@ -124,9 +125,10 @@ CALIBRATIONS = pytest.mark.parametrize(
     [
         (SCORE.calibration, 0.92, -11.8, -12.0, 1.4),
         (SCORE.part.calibration, 1 / 0.43, 16.2, np.inf, 1.3),
+        (SCORE.part.calibration_of_view, 1 / 0.43, 16.2, np.inf, 1.6),
         (SCORE.part.calibration_of_two, 1 / 2.7, 9.9, np.inf, 1.3),
     ],
-    ids=["wholes", "part", "two parts"],
+    ids=["wholes", "part", "one camera", "two parts"],
 )
 
 

@@ -151,7 +151,8 @@ def _doubled_area(part: Mesh, inside: np.ndarray, whole: PartSurface) -> float:
     It is what the part has more than it covers of the whole. Two legs may lie on one, each by itself as it should.
     """
     found, _, agree = closest_point_query(part)(whole.mesh.vertices, whole.surface.normals)
-    beyond = _at_boundary(found, part.faces, boundary_vertices(part))
+    on_edge = 1e-3  # distance up to which a vertex of the whole lies on the boundary of the part, and counts
+    beyond = _at_boundary(found, part.faces, boundary_vertices(part)) & (found.distances > on_edge)
     covered = ~beyond & (found.distances < _OVERLAP_WIDTH) & (agree > 0)
     own = float(vertex_areas(part) @ inside)
     return max(1.0 - float(vertex_areas(whole.mesh) @ covered) / own, 0.0) if own > 0 else 0.0
