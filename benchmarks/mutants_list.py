@@ -1160,6 +1160,9 @@ MUTANTS = tuple(
         ("is not None and not pair.is_one_view", "is not None", "test_parts_one_view -k alike"),
         ("placement.scale > SCORE.part.full_view_scale", "False", "test_parts_alternatives -k one_camera"),
         ("2 if pair.is_one_view else 1", "1", "test_parts_alternatives -k grows_too"),
+        ("is_one_view and best is not order[0]", "is_one_view", "test_parts_alternatives -k has_grown"),
+        ("images.append(behind[", "images.append(np.arange(len(vertices))[", "test_symmetries -k turned"),
+        ("normals @ normals.T < -0.5, squares", "normals @ normals.T > 0.5, squares", "test_symmetries -k other_side"),
         # what lies on more of the part
         ("(found.distances < _OVERLAP_WIDTH) & (agree > 0)", "(agree > 0)", "test_parts_registration -k doubled"),
         ("@ covered) / own", "@ ~covered) / own", "test_parts_registration -k doubled"),

@@ -101,7 +101,8 @@ def test_near_symmetries_of_the_whole_place_the_part_elsewhere(half, true, monke
     assert error(half, found[0]) < 0.04
     assert all(error(half, one) > 0.15 for one in found[1:])
     assert len(found) == 2
-    moved = candidates_module._place_symmetrically(best, images, 3).placed.match
+    marked = PartPair(replace(on.part, n_landmarks=3), on.whole, find_self_images=lambda: images[None])
+    moved = candidates_module._place_symmetrically(best, marked)[0].placed.match
     assert (moved[:3] == best.placement.placed.match[:3]).all()  # landmarks stay
     assert (moved[3:] == images[best.placement.placed.match[3:]]).all()
 
@@ -232,11 +233,27 @@ def test_of_the_scan_of_one_camera_the_second_candidate_grows_too(half, monkeypa
     monkeypatch.setattr(candidates_module, "_grow", lambda one, *_: grown.append(one))
     monkeypatch.setattr(candidates_module, "make_candidate", lambda *_: stub(19.5, 0.0))
     monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_: stub(21.0, 1.0))
+    monkeypatch.setattr(candidates_module, "_place_symmetrically", lambda *_: [])
     for is_one_view, starts in ((False, order[:1]), (True, [order[0], order[2]])):
         grown.clear()
         found: Any = candidates_module.regrow_best(order, replace(half[0], is_one_view=is_one_view))
         assert [one for i, one in enumerate(grown) if i % 8 == 0] == starts
         assert [one.score for one in found[: len(starts) + 1]] == [21.0] * len(starts) + [20.0]
+
+
+@pytest.mark.parametrize(("is_one_view", "grown", "expected"), [(True, 21.0, 2), (True, 19.0, 0), (False, 21.0, 0)])
+def test_a_scan_of_one_camera_that_has_grown_is_turned_once_more(is_one_view, grown, expected, half, monkeypatch):
+    turned = []
+    monkeypatch.setattr(candidates_module, "_grow", lambda *_: None)
+    monkeypatch.setattr(candidates_module, "make_candidate", lambda placement, _: stub(18.5, 2.0 if placement else 0.0))
+    monkeypatch.setattr(candidates_module, "refine_placement", lambda _, placement: placement)
+    monkeypatch.setattr(
+        candidates_module, "_refine_candidate", lambda one, _: stub(grown if one.points[0, 0] == 0 else 20.5, 0.0)
+    )
+    monkeypatch.setattr(candidates_module, "_place_symmetrically", lambda one, _: turned.append(one) or ["a", "b"])
+    found: Any = candidates_module.regrow_best([stub(20.0, 0.0)], replace(half[0], is_one_view=is_one_view))
+    assert [one.score for one in found].count(20.5) == expected
+    assert [one.score for one in turned] == [21.0] * (expected > 0)
 
 
 def test_only_candidates_that_differ_are_rivals():

@@ -10,12 +10,12 @@ from scipy.spatial.transform import Rotation
 
 from conftest import NO_LANDMARKS, SMALL
 from kfmaps import Mesh
-from kfmaps.datasets import posed_pair, two_poses
+from kfmaps.datasets import posed_pair, symmetric_creature, two_poses
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.fmap.convert import to_points
-from kfmaps.geometry.mesh import mirror_mesh
+from kfmaps.geometry.mesh import mirror_mesh, vertex_normals
 from kfmaps.geometry.sampling import SpectralSamples
 from kfmaps.matching import candidates as candidates_module
 from kfmaps.matching import orientation, search, search_result
@@ -34,6 +34,7 @@ from kfmaps.matching.search_result import _margin, alternative_maps, calibrated_
 from kfmaps.matching.self_maps import (
     _MAX_DISTORTION,
     _MIN_DISPLACEMENT,
+    _opposite,
     find_reflection,
     find_self_maps,
     self_images,
@@ -322,6 +323,28 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
     assert min(images) < 0.05
     monkeypatch.setattr(self_maps_module, "_keeps_shot", lambda quality, _shape: quality.orientation < 0.5)
     assert not turns()
+
+
+def test_what_is_seen_from_the_front_is_turned_to_the_back():
+    """Half a turn of a body that is its own mirror image: each vertex to what lies behind its reflection."""
+    pair = symmetric_creature(1500, rng=0)
+    body = prepare(pair.source, SMALL)
+    _, first = np.unique(pair.truth, return_index=True)
+    some, mirrored = pair.truth[first], pair.mirrored[first]
+    plain, turned = self_images(body, some), self_images(body, some, turned=True)
+    assert len(turned) == len(plain) + 1
+    points, normals = body.mesh.vertices, vertex_normals(body.mesh)
+    images = some[turned[-1]]
+    facing = np.einsum("ij,ij->i", normals[images], normals[mirrored])
+    off = np.linalg.norm(points[images] - points[mirrored], axis=1)
+    assert np.mean(facing < 0) > 0.8
+    assert 0.02 < np.median(off) < 0.2
+
+
+def test_the_other_side_is_the_nearest_one_that_faces_away():
+    x = np.array([[0.0, 0, 0], [0, 0, -0.2], [0.5, 0, -0.1], [0, 0, 0.1]])
+    away = np.array([[0.0, 0, 1], [0, 0, -1], [0, 0, -1], [0, 0, 1]])
+    assert _opposite(x, away).tolist() == [1, 0, 0, 1]
 
 
 def test_a_worm_is_turned_about_its_axis():

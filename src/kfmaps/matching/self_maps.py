@@ -22,6 +22,7 @@ import numpy as np
 from kfmaps._arrays import Array, to_numpy
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
+from kfmaps.geometry.mesh import vertex_normals
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_extremities
 from kfmaps.matching.quality import (
     ShapeSamples,
@@ -71,16 +72,28 @@ def with_self_maps(shape: ShapeSamples) -> ShapeSamples:
     return replace(shape, self_maps=self_maps, reflection_map=find_reflection(coarse, maps))
 
 
-def self_images(shape: Shape, vertices: np.ndarray, rng: int = 0) -> np.ndarray:
-    """Return the images of ``vertices (q,)`` by the self-maps that keep orientation, (m, q): numbers among them."""
+def self_images(shape: Shape, vertices: np.ndarray, rng: int = 0, turned: bool = False) -> np.ndarray:
+    """Return the images of ``vertices (q,)`` by the self-maps that keep orientation, (m, q): numbers among them.
+
+    ``turned``: also by the reflection and then through the body, which turns front to back. One camera's scan of a side
+    fits there nearly as well.
+    """
     samples = sample_for_scoring(shape, COARSE_SAMPLES, rng)
     functions = to_numpy(shape.basis.functions)[vertices]
-    images = [
-        nearest(functions[:, : len(C)], functions[:, : len(C)] @ C.T)
-        for C in find_self_maps(samples, functions.shape[1])
-        if map_quality(C, samples, samples).orientation > 0.5
-    ]
+    maps = find_self_maps(samples, functions.shape[1])
+    kept = [C for C in maps if map_quality(C, samples, samples).orientation > 0.5]
+    images = [nearest(functions[:, : len(C)], functions[:, : len(C)] @ C.T) for C in kept]
+    C = find_reflection(samples, maps) if turned else None
+    if C is not None:
+        behind = _opposite(shape.mesh.vertices[vertices], vertex_normals(shape.mesh)[vertices])
+        images.append(behind[nearest(functions[:, : len(C)], functions[:, : len(C)] @ C.T)])
     return np.array(images, dtype=np.int64).reshape(len(images), len(vertices))
+
+
+def _opposite(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Return the nearest of the points (q, 3) on the other side of a body, by their normals, for each: (q,)."""
+    squares = ((points[:, None] - points) ** 2).sum(axis=2)
+    return np.where(normals @ normals.T < -0.5, squares, np.inf).argmin(axis=1)
 
 
 def find_reflection(shape: ShapeSamples, maps: list[np.ndarray]) -> np.ndarray | None:

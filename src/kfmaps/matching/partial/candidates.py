@@ -98,7 +98,7 @@ def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list
     n_alternatives, n_refined = 3, 3  # placements that are registered, and distinct candidates that are refined
     best = by_score(found)[0]
     likely = by_score(_alternative_placements(pair, best.registration.scale, best.points))[:n_alternatives]
-    likely += [_place_symmetrically(best, images, pair.part.n_landmarks) for images in pair.self_images]
+    likely += _place_symmetrically(best, pair)
     order = by_score([*found, *(make_candidate(refine_placement(pair, one), pair) for one in likely)])
     chosen = select_distinct(order, _differ, n_refined)
     rest = [one for one in order if all(_differ(one, other) for other in chosen)]
@@ -126,15 +126,17 @@ def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) ->
     return [one for some in parallel(place, scales) for one in some]
 
 
-def _place_symmetrically(one: PartCandidate, images: np.ndarray, n_landmarks: int) -> Placement:
-    """Return the placement after a near-symmetry of the whole, which has ``images (m,)`` of its samples.
+def _place_symmetrically(one: PartCandidate, pair: PartPair) -> list[Placement]:
+    """Return the placement after each near-symmetry of the whole.
 
     Samples that are landmarks stay.
     """
-    placed = one.placement.placed
-    match = images[placed.match]
-    match[:n_landmarks] = placed.match[:n_landmarks]
-    return replace(one.placement, placed=replace(placed, match=match))
+    placed, n_landmarks, found = one.placement.placed, pair.part.n_landmarks, []
+    for images in pair.self_images:
+        match = images[placed.match]
+        match[:n_landmarks] = placed.match[:n_landmarks]
+        found.append(replace(one.placement, placed=replace(placed, match=match)))
+    return found
 
 
 def candidates_at_scale(pair: PartPair, scale: float) -> list[PartCandidate]:
@@ -153,7 +155,8 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
     """Add the best candidate that keeps one region of the first of ``order`` and places all else anew.
 
     A placement is often right but for a limb that lies on another. Grown outwards from a region that is right, the limb
-    is placed by its distances from there. Of the scan of one camera the second distinct candidate grows too.
+    is placed by its distances from there. Of the scan of one camera the second distinct candidate grows too, and a best
+    one that has grown is compared with its images by near-symmetries.
     """
     n_regions = 8  # around the first samples, which are far from each other
     seeds, found = range(min(n_regions, len(pair.part.samples))), list(order)
@@ -164,6 +167,10 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
         grown = _refine_candidate(grown, pair)
         if _differ(grown, one) or grown.score >= one.score + SCORE.part.min_gain:
             found.append(grown)
+    best = by_score(found)[0]
+    if pair.is_one_view and best is not order[0]:
+        turned = _place_symmetrically(best, pair)
+        found += [_refine_candidate(make_candidate(refine_placement(pair, one), pair), pair) for one in turned]
     return by_score(found)
 
 

@@ -89,8 +89,8 @@ class PartTask:
     # Raise it also where the search would not end early and the part seems to have this share of the whole's area or
     # more; try no scale below ``least_scale`` then.
     clear_area: float = math.inf
-    # Returns the images of vertices of a whole by its near-symmetries (:mod:`kfmaps.matching.self_maps`).
-    self_images: Callable[[np.ndarray], np.ndarray] | None = None
+    # Returns the images of vertices of a whole by its near-symmetries (:func:`kfmaps.matching.self_maps.self_images`).
+    self_images: Callable[..., np.ndarray] | None = None
 
     @cached_property
     def is_one_view(self) -> bool:
@@ -128,7 +128,7 @@ def place_part(
     small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
     small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
     on_whole = proxies[1].vertices[samples[1].samples]
-    find_images = None if task.self_images is None else partial(task.self_images, on_whole)
+    find_images = None if task.self_images is None else partial(task.self_images, on_whole, turned=task.is_one_view)
     pair = PartPair(samples[0], samples[1], fixed, both_partial, small, task.is_one_view, find_images)
     report(0.15)
     found = _search_placements(pair, task, report)
