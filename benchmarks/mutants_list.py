@@ -872,7 +872,7 @@ MUTANTS = tuple(
         ("(state.may_reverse and advantage > 0)", "state.may_reverse", "test_symmetries -k mirrored_pose"),
         ("SCORE.isometry_factor * advantage", "advantage", "test_symmetries -k much_more_isometric"),
         ("images[placed.match]", "placed.match", "test_parts_alternatives -k near_symmetries"),
-        (".orientation > 0.5\n    ]", ".orientation > -2\n    ]", "test_symmetries -k by_its_extremities"),
+        ("samples).orientation > 0.5]", "samples).orientation > -2]", "test_symmetries -k by_its_extremities"),
         ("gain -= SCORE.w_landmark * float(contradicted.sum())", "pass", "test_landmark_evidence -k in_part"),
         ("if one[0] is not ranked.ranked[0])", ")", "test_registration_evidence -k casts_no_doubt_on"),
         ("if is_auto and not is_congruent else ()", "[:0]", "test_extremities -k unasked"),
