@@ -329,6 +329,7 @@ def test_what_is_seen_from_the_front_is_turned_to_the_back():
     """Half a turn of a body that is its own mirror image: each vertex to what lies behind its reflection."""
     pair = symmetric_creature(1500, rng=0)
     body = prepare(pair.source, SMALL)
+    assert pair.mirrored is not None
     _, first = np.unique(pair.truth, return_index=True)
     some, mirrored = pair.truth[first], pair.mirrored[first]
     plain, turned = self_images(body, some), self_images(body, some, turned=True)
