@@ -36,7 +36,7 @@ from test_parts import renumbered, task_of
 
 GUARDS = ("kfmaps.matching.partial", "kfmaps.matching.score")
 
-EMPTY: Any = SimpleNamespace(self_images=())
+EMPTY: Any = SimpleNamespace(self_images=(), part=SimpleNamespace(n_landmarks=0))
 COST = SCORE.part.landmark_cost
 
 

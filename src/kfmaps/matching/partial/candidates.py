@@ -131,8 +131,9 @@ def _place_symmetrically(one: PartCandidate, pair: PartPair) -> list[Placement]:
 
     Samples that are landmarks stay.
     """
-    placed, n_landmarks, found = one.placement.placed, pair.part.n_landmarks, []
+    n_landmarks, found = pair.part.n_landmarks, []
     for images in pair.self_images:
+        placed = one.placement.placed
         match = images[placed.match]
         match[:n_landmarks] = placed.match[:n_landmarks]
         found.append(replace(one.placement, placed=replace(placed, match=match)))
