@@ -106,7 +106,7 @@ class PartScoring:
     """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.3. Right parts have up to
     1.16 from one person to another."""
     full_view_scale: float = 0.45
-    """Scale from which the scan of one camera may show all of a whole: 24 people have 0.45 to 0.66. Less costs as the
+    """Scale from which the scan of one camera may show all of a whole: 21 people have 0.49 to 0.65. Less costs as the
     scale of a small part does."""
     base_deformation: float = 0.005
     """Deformation energy of any part, by its mesh alone."""
