@@ -15,7 +15,8 @@ from kfmaps.geometry.mesh import Mesh, face_areas, face_normals
 _DIRECTIONS = 24
 """Directions that the whole is seen from."""
 _LEAST_COSINE = 0.1
-"""Cosine between a normal and the direction to the camera from which a face is seen: −0.1 and 0.25 are worse (research/body-model.md)."""
+"""Cosine between a normal and the direction to the camera from which a face is seen. −0.1 and 0.25 are worse
+(research/body-model.md)."""
 
 
 def is_view_of(part: Mesh, whole: Mesh) -> bool:
