@@ -1157,7 +1157,11 @@ MUTANTS = tuple(
         ("np.pi * (3 - np.sqrt(5))", "np.pi / 3", "test_parts_one_view -k all_around"),
         ("radius / math.sqrt(area)", "radius", "test_parts_one_view -k no_ball"),
         ("np.maximum(most[:, seen], own @ ", "np.maximum(0, own @ ", "test_parts_one_view -k alike"),
-        ("is not None and not pair.is_one_view", "is not None", "test_parts_one_view -k alike"),
+        (
+            "    if pair.is_one_view:\n        similarity",
+            "    if False:\n        similarity",
+            "test_parts_one_view -k alike",
+        ),
         ("placement.scale > SCORE.part.full_view_scale", "False", "test_parts_alternatives -k one_camera"),
         ("2 if pair.is_one_view else 1", "1", "test_parts_alternatives -k grows_too"),
         ("is_one_view and best is not order[0]", "is_one_view", "test_parts_alternatives -k has_grown"),

@@ -115,8 +115,7 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     else:
         part, as_wholes = _match_part(task, which, detection.reason)
         best = part if _fits(part) else _more_probable(part, wholes(as_wholes))
-    is_enough = best.confidence is None or detection.is_one_view or _is_whole(best, detection)
-    if best.verdict == "sure" or is_enough:
+    if best.verdict == "sure" or best.confidence is None or detection.is_one_view or _is_whole(best, detection):
         return best
     best = _compare_opposite(task, best, "target" if which == "source" else "source")
     if best.verdict == "sure" or not detection.both_open:

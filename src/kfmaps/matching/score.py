@@ -79,7 +79,7 @@ class PartScoring:
     calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9))
     """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`."""
     calibration_of_view: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2, tie=1.6))
-    """The same for scans of one camera, whose wrong placements have had a margin of 2.1."""
+    """The same for scans of one camera, whose wrong placements have had a margin of 2.2."""
     max_fit_of_unknown_unit: float = 0.89
     """:attr:`Calibration.max_fit` of two parts unless their unit is known to be one: boxes of other sizes fit too."""
     w_consistency: float = 4.0
@@ -376,10 +376,11 @@ class PartEvidence:
     flipped_area: float = 0.0
     # Consistency of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
-    # Absolute logarithm of the ratio of the scale of a small part to that of its file.
+    # Absolute logarithm of the ratio of the scale of a small part to that of its file, or of one camera's scan to
+    # :attr:`PartScoring.full_view_scale`.
     scale_change: float = 0.0
     landmark_cost: float = 0.0  # of landmarks with errors above :attr:`PartScoring.max_landmark_error`
-    doubled_area: float = 0.0
+    doubled_area: float = 0.0  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
 
 
 def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:

@@ -81,12 +81,16 @@ def self_images(shape: Shape, vertices: np.ndarray, rng: int = 0, turned: bool =
     samples = sample_for_scoring(shape, COARSE_SAMPLES, rng)
     functions = to_numpy(shape.basis.functions)[vertices]
     maps = find_self_maps(samples, functions.shape[1])
-    kept = [C for C in maps if map_quality(C, samples, samples).orientation > 0.5]
-    images = [nearest(functions[:, : len(C)], functions[:, : len(C)] @ C.T) for C in kept]
-    C = find_reflection(samples, maps) if turned else None
-    if C is not None:
+
+    def image(C: np.ndarray) -> np.ndarray:
+        own = functions[:, : len(C)]
+        return nearest(own, own @ C.T)
+
+    images = [image(C) for C in maps if map_quality(C, samples, samples).orientation > 0.5]
+    reflection = find_reflection(samples, maps) if turned else None
+    if reflection is not None:
         behind = _opposite(shape.mesh.vertices[vertices], vertex_normals(shape.mesh)[vertices])
-        images.append(behind[nearest(functions[:, : len(C)], functions[:, : len(C)] @ C.T)])
+        images.append(behind[image(reflection)])
     return np.array(images, dtype=np.int64).reshape(len(images), len(vertices))
 
 

@@ -155,7 +155,7 @@ def _doubled_area(part: Mesh, inside: np.ndarray, whole: PartSurface) -> float:
     beyond = _at_boundary(found, part.faces, boundary_vertices(part)) & (found.distances > on_edge)
     covered = ~beyond & (found.distances < _OVERLAP_WIDTH) & (agree > 0)
     own = float(vertex_areas(part) @ inside)
-    return max(1.0 - float(vertex_areas(whole.mesh) @ covered) / own, 0.0) if own > 0 else 0.0
+    return max(1.0 - float(whole.areas @ covered) / own, 0.0) if own > 0 else 0.0
 
 
 def _is_inside(found: ClosestPoints, whole: PartSurface) -> np.ndarray:

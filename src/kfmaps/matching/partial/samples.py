@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import dijkstra
 from kfmaps.descriptors.shot import shot
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
-from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_areas
 from kfmaps.matching.partial.one_view import views
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
@@ -33,6 +33,11 @@ class PartSurface:
     def on_boundary(self) -> np.ndarray:
         """Which vertices are on the boundary, (n,) bool."""
         return boundary_vertices(self.mesh)
+
+    @cached_property
+    def areas(self) -> np.ndarray:
+        """The area of each vertex, (n,)."""
+        return vertex_areas(self.mesh)
 
     @cached_property
     def surface(self) -> ClosestPointQuery:

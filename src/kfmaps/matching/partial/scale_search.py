@@ -69,8 +69,8 @@ def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> n
     else:
         total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
         similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
-    if pair.small_scale is not None and not pair.is_one_view:
-        similarity *= pair.shot_weights(scale, max(params.radii))[:, None]
+        if pair.small_scale is not None:
+            similarity *= pair.shot_weights(scale, max(params.radii))[:, None]
     landmarks = np.arange(pair.part.n_landmarks)
     similarity[landmarks] = -1.0
     similarity[landmarks, landmarks] = 2.0
@@ -139,8 +139,9 @@ def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
 
 def _compute_shot(pair: PartPair, params: RelaxationParams) -> None:
     """Compute the SHOT of the whole, which placements at all scales share."""
+    compute = pair.whole.shot_of_views if pair.is_one_view else pair.whole.shot
     for radius in params.radii:
-        _ = pair.whole.shot_of_views(radius) if pair.is_one_view else pair.whole.shot(radius)
+        compute(radius)
 
 
 def place_all(pair: PartPair, one: Placement) -> Placement:
