@@ -96,8 +96,13 @@ def _detect_part(task: MatchTask) -> PartDetection:
     return detect_part(source.mesh, target.mesh)
 
 
-def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match]) -> Match:
-    """Return the match of a part and a whole, of two parts, or that of ``wholes``, as the boundaries suggest."""
+def _match_detected(
+    task: MatchTask, detection: PartDetection, wholes: Callable[[MatchPart], Match], tried: str = ""
+) -> Match:
+    """Return the match of a part and a whole, of two parts, or that of ``wholes``, as the boundaries suggest.
+
+    ``tried``: what has been stated and matched already: two parts are not matched again.
+    """
     which, has_search = detection.which, task.config.search is not None
     if which in ("none", "both"):
         best = wholes(MatchPart(reason=detection.reason))
@@ -118,7 +123,7 @@ def _match_detected(task: MatchTask, detection: PartDetection, wholes: Callable[
     if best.verdict == "sure" or best.confidence is None or detection.is_one_view or _is_whole(best, detection):
         return best
     best = _compare_opposite(task, best, "target" if which == "source" else "source")
-    if best.verdict == "sure" or not detection.both_open:
+    if best.verdict == "sure" or not detection.both_open or tried == "both":
         return best
     return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
 
@@ -157,7 +162,7 @@ def _match_stated(
     elif detection.which in ("none", stated):
         other = wholes(MatchPart(reason=_FIT_AS_WHOLES, suspected=True))
     else:
-        other = _match_detected(task, detection, wholes)
+        other = _match_detected(task, detection, wholes, stated)
     return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
 
 

@@ -90,6 +90,10 @@ class PartScoring:
     """Usual consistency of right placements of two parts: they have 0.75 to 0.93, wrong ones 0.5 to 0.78."""
     w_similarity_rank: float = 1.0
     """Weight of :attr:`PartEvidence.similarity_rank`."""
+    w_overlap_rank: float = 4.0
+    """Weight of :attr:`PartEvidence.overlap_rank` below :attr:`usual_overlap_rank`."""
+    usual_overlap_rank: float = -3.3
+    """Usual rank of right placements of two parts: they have -2.1 to -5.2, wrong ones -1.5 to -3.9."""
     w_gap: float = 50.0
     """Weight of the root mean squared distance between the surfaces, in √area of the whole."""
     w_flipped: float = 4.0
@@ -376,6 +380,9 @@ class PartEvidence:
     flipped_area: float = 0.0
     # Consistency of the distances between samples of the overlap, where both shapes are parts; 0 to 1.
     pair_consistency: float = PartScoring.usual_pair_consistency
+    # Mean logarithm of the share of the other part's samples in the overlap that are more similar to a sample than its
+    # place, where both shapes are parts: 0 and less.
+    overlap_rank: float = PartScoring.usual_overlap_rank
     # Absolute logarithm of the ratio of the scale of a small part to that of its file, or of one camera's scan to
     # :attr:`PartScoring.full_view_scale`.
     scale_change: float = 0.0
@@ -437,6 +444,7 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     score = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap
     score -= numbers.w_flipped * evidence.flipped_area + numbers.w_doubled * evidence.doubled_area
     score += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
+    score -= numbers.w_overlap_rank * (evidence.overlap_rank - numbers.usual_overlap_rank)
     score -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
     score -= evidence.landmark_cost
     deformation = math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)

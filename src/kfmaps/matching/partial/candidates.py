@@ -17,7 +17,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._threads import parallel
-from kfmaps.matching.partial.registration import PartRegistration, find_overlap, register_part
+from kfmaps.matching.partial.registration import PartRegistration, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair
 from kfmaps.matching.partial.scale_search import (
@@ -28,6 +28,7 @@ from kfmaps.matching.partial.scale_search import (
     rough_placements,
     shot_similarity,
 )
+from kfmaps.matching.partial.two_parts import overlap_evidence
 from kfmaps.matching.score import SCORE, PartEvidence, by_score, part_landmark_cost, part_score, select_distinct
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
@@ -77,17 +78,9 @@ def _measure_candidate(placement: Placement, found: PartRegistration, pair: Part
     if usual is not None and not is_full_view:
         evidence = replace(evidence, scale_change=abs(math.log(placement.scale / usual)))
     if pair.both_partial:
-        evidence = replace(evidence, pair_consistency=_overlap_consistency(found, pair))
+        agreement, rank = overlap_evidence(found, pair)
+        evidence = replace(evidence, pair_consistency=agreement, overlap_rank=rank, doubled_area=0.0)
     return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
-
-
-def _overlap_consistency(found: PartRegistration, pair: PartPair) -> float:
-    """Return how well distances on two parts agree, between samples of the overlap, from 0 to 1."""
-    samples, whole = pair.part.samples, pair.whole
-    match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(found.vertices[samples])[1])
-    fits, near = pair.pair_consistency(found.scale, match)
-    on = find_overlap(found, whole).part[samples]
-    return float(on @ fits @ on / max(on @ near @ on, 1e-12))
 
 
 def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list[PartCandidate]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps.geometry.connectivity import renumbering
 from kfmaps.geometry.mesh import Mesh, face_areas, face_normals
 
 _DIRECTIONS = 24
@@ -32,18 +31,12 @@ def _is_one_view(mesh: Mesh) -> bool:
     return float(areas[normals @ middle > 0].sum()) >= min_share * float(areas.sum())
 
 
-def views(mesh: Mesh) -> list[tuple[Mesh, np.ndarray]]:
-    """Return what is turned to each of some directions, and its number of each vertex, (n,), or -1.
+def views(mesh: Mesh) -> np.ndarray:
+    """Return which faces are turned to each of some directions, (d, m) bool.
 
-    What hides it does not count: bodies of other poses hide other things.
+    What hides them does not count: bodies of other poses hide other things.
     """
-    normals, n, found = face_normals(mesh), len(mesh.vertices), []
-    for direction in _spread_directions(_DIRECTIONS):
-        faces = mesh.faces[normals @ direction > _LEAST_COSINE]
-        kept = np.unique(faces)
-        number = renumbering(kept, n)
-        found.append((Mesh(mesh.vertices[kept], number[faces]), number))
-    return found
+    return _spread_directions(_DIRECTIONS) @ face_normals(mesh).T > _LEAST_COSINE
 
 
 def _spread_directions(count: int) -> np.ndarray:

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps.descriptors.shot import shot
+from kfmaps.geometry.connectivity import renumbering
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_areas
@@ -72,13 +73,17 @@ class PartSamples(PartSurface):
     def shot_of_views(self, radius: float) -> list[tuple[np.ndarray, np.ndarray]]:
         """Return for each view of the shape which samples are seen, (v,), and their SHOT of what is seen, (v, 352)."""
         if radius not in self.view_descriptors:
-            found = []
-            for mesh, number in views(self.mesh):
-                seen, area = np.flatnonzero(number[self.samples] >= 0), surface_area(mesh)
-                at, support = number[self.samples[seen]], max(round(_SUPPORT * area), 1)
-                found.append((seen, shot(mesh, radius / math.sqrt(area), at=at, samples=support).astype(np.float32)))
-            self.view_descriptors[radius] = found
+            self.view_descriptors[radius] = [self.shot_of_faces(faces, radius) for faces in views(self.mesh)]
         return self.view_descriptors[radius]
+
+    def shot_of_faces(self, faces: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return which samples some faces, (m,) bool, have, (v,), and their SHOT of these faces alone, (v, 352)."""
+        kept = np.unique(self.mesh.faces[faces])
+        number = renumbering(kept, len(self.mesh.vertices))
+        piece = Mesh(self.mesh.vertices[kept], number[self.mesh.faces[faces]])
+        has, area = np.flatnonzero(number[self.samples] >= 0), surface_area(piece)
+        at, support = number[self.samples[has]], max(round(_SUPPORT * area), 1)
+        return has, shot(piece, radius / math.sqrt(area), at=at, samples=support).astype(np.float32)
 
 
 @dataclass(frozen=True, eq=False)

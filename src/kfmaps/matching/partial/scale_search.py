@@ -16,6 +16,7 @@ from kfmaps._threads import parallel
 from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.relaxation_labeling import Assignment, RelaxationParams, reassign, relax, scale_change
 from kfmaps.matching.partial.samples import PartPair
+from kfmaps.matching.partial.two_parts import consistent_trust
 from kfmaps.matching.score import PartEvidence, placement_score
 
 TRIALS = (
@@ -149,26 +150,10 @@ def place_all(pair: PartPair, one: Placement) -> Placement:
     n_landmarks = pair.part.n_landmarks
     placed = reassign(pair.bounds(one.scale), pair.whole.distances, one.similarity, one.placed, n_landmarks)
     if pair.both_partial:
-        placed = replace(placed, trust=placed.trust * _consistent_trust(pair, one.scale, placed))
+        trust = consistent_trust(*pair.pair_consistency(one.scale, placed.match), placed.trust, n_landmarks)
+        placed = replace(placed, trust=placed.trust * trust)
     weights = None if pair.small_scale is None else pair.shot_weights(one.scale, max(TRIALS[0].radii)) ** 2
     return replace(one, placed=placed, weights=weights)
-
-
-def _consistent_trust(pair: PartPair, scale: float, placed: Assignment) -> np.ndarray:
-    """Return how well each sample of a part agrees with those that agree with each other, (q,), from 0 to 1.
-
-    Samples without a place on the other part do not. This is a power iteration as by Leordeanu and Hebert (2005), with
-    means in place of sums, so that samples with few neighbours count as much.
-    """
-    fits, near = pair.pair_consistency(scale, placed.match)
-    least = 0.8  # mean consistency with the others, over that of the best tenth, from which a sample is trusted
-    trust = np.minimum(placed.trust, 1.0)
-    for _ in range(6):
-        mean = fits @ trust / np.maximum(near @ trust, 1e-12)
-        best = max(float(np.quantile(mean, 0.9)), 1e-12)
-        trust = np.clip((mean / best - least) / (1 - least), 0.0, 1.0)
-    trust[: pair.part.n_landmarks] = 1.0
-    return trust
 
 
 def refine_placement(pair: PartPair, one: Placement) -> Placement:
