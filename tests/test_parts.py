@@ -575,6 +575,21 @@ def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_
     assert tried == steps
 
 
+def test_two_parts_that_were_stated_are_not_matched_twice(monkeypatch, small):
+    answers = {which: fake_match("ambiguous", 0.4) for which in ("source", "target", "both")}
+    tried = []
+
+    def matched(_task, which, *_, **__):
+        tried.append(which)
+        return answers[which], False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, True))
+    stated = replace(AUTO, partial=replace(AUTO.partial, part="both"))
+    assert match_module.match(small, small, stated) is answers["both"]
+    assert tried == ["both", "target", "source"]
+
+
 @pytest.mark.parametrize(
     ("word", "asked", "scale", "output", "scale_of_opposite", "expected"),
     [

@@ -12,10 +12,11 @@ from conftest import SMALL
 from kfmaps import datasets
 from kfmaps.config import Partial
 from kfmaps.datasets import largest_piece
+from kfmaps.descriptors.shot import shot
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
-from kfmaps.matching.partial import candidates, place_part
+from kfmaps.matching.partial import candidates, place_part, two_parts
 from kfmaps.matching.partial import candidates as candidates_module
 from kfmaps.matching.partial.candidates import (
     _ROUNDS,
@@ -26,7 +27,7 @@ from kfmaps.matching.partial.candidates import (
     margin,
 )
 from kfmaps.matching.partial.match_partial import _place_by_landmarks, match_partial
-from kfmaps.matching.partial.registration import register_part
+from kfmaps.matching.partial.registration import find_overlap, register_part
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair, PartSamples, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, Placement, place_all, shot_similarity
@@ -385,16 +386,39 @@ def test_right_landmarks_are_kept_where_a_wrong_placement_scores_a_little_better
 def test_two_parts_are_scored_by_the_distances_in_their_overlap_alone(half, true, monkeypatch):
     pair, found = replace(half[0], both_partial=True), true[0].registration
     samples, whole = pair.part.samples, pair.whole
-    overlap = np.zeros(len(found.vertices))
-    overlap[samples[::2]] = 1.0
-    monkeypatch.setattr(candidates_module, "find_overlap", lambda *_: SimpleNamespace(part=overlap))
+    overlap = find_overlap(found, whole)
+    common = np.zeros(len(found.vertices))
+    common[samples[::2]] = 1.0
+    monkeypatch.setattr(two_parts, "find_overlap", lambda *_: replace(overlap, part=common))
     places = whole.mesh.vertices[whole.samples]
     nearest = np.linalg.norm(found.vertices[samples][:, None] - places, axis=2).argmin(axis=1)
     fits, near = pair.pair_consistency(found.scale, nearest)
     wanted = fits[::2, ::2].sum() / near[::2, ::2].sum()
     creature_pair = make_candidate(true[0].placement, pair).evidence
-    assert candidates_module._overlap_consistency(found, pair) == pytest.approx(wanted)
+    assert two_parts.overlap_evidence(found, pair)[0] == pytest.approx(wanted)
     assert creature_pair.pair_consistency != true[0].evidence.pair_consistency == SCORE.part.usual_pair_consistency
+    # What one of two parts has alone is folded onto the other, where the placement is right.
+    assert creature_pair.doubled_area == 0.0
+
+
+def test_shot_of_the_overlap_of_two_parts_ranks_the_right_place_first(half, true):
+    pair, found = replace(half[0], both_partial=True), true[0].registration
+    turned = replace(found, vertices=found.vertices[np.random.default_rng(0).permutation(len(found.vertices))])
+    ranks = [two_parts.overlap_evidence(one, pair)[1] for one in (found, turned)]
+    assert ranks[0] < -3.5 < -1.5 < ranks[1] <= 0.0
+
+
+def test_shot_of_some_faces_is_that_of_a_mesh_of_these_faces_alone(half):
+    whole = half[0].whole
+    faces = whole.mesh.vertices[whole.mesh.faces].mean(axis=1)[:, 0] > 0
+    kept, new = np.unique(whole.mesh.faces[faces], return_inverse=True)
+    piece, has = Mesh(whole.mesh.vertices[kept], new.reshape(-1, 3)), np.isin(whole.samples, kept)
+    area = surface_area(piece)
+    at = np.searchsorted(kept, whole.samples[has])
+    own, found = whole.shot_of_faces(faces, 0.1)
+    assert own.tolist() == np.flatnonzero(has).tolist()
+    wanted = shot(piece, 0.1 / np.sqrt(area), at=at, samples=round(10_000 * area))
+    np.testing.assert_array_equal(found, wanted.astype(np.float32))
 
 
 SCALE, RADIUS = 0.4, max(TRIALS[0].radii)

@@ -18,10 +18,10 @@ from kfmaps.matching.partial.scale_search import (
     MIN_SCALE,
     TRIALS,
     Placement,
-    _consistent_trust,
     _shot_scale,
     refine_placement,
 )
+from kfmaps.matching.partial.two_parts import consistent_trust
 from kfmaps.matching.score import SCORE
 
 GUARDS = (
@@ -110,7 +110,7 @@ def test_samples_without_a_place_are_not_trusted():
     match = np.arange(2 * HALF)
     match[80:] = np.random.default_rng(0).permutation(40) + 80
     moved = match != np.arange(2 * HALF)
-    trust = _consistent_trust(pair, SCALE, Assignment(match, np.full(2 * HALF, 0.5), 1.0))
+    trust = consistent_trust(*pair.pair_consistency(SCALE, match), np.full(2 * HALF, 0.5), 0)
     assert trust[~moved].min() > 0.6
     assert np.median(trust[moved]) == 0.0
 
@@ -119,10 +119,10 @@ def test_landmarks_are_trusted_wherever_they_are():
     _, part, whole = sheet(landmarks=2)
     match = np.arange(2 * HALF)
     match[:2] = OTHER[:2]
-    placed = Assignment(match, np.full(2 * HALF, 0.5), 1.0)
-    assert _consistent_trust(PartPair(part, whole, both_partial=True), SCALE, placed)[:2].tolist() == [1.0, 1.0]
-    unmarked = PartPair(replace(part, n_landmarks=0), whole, both_partial=True)
-    assert _consistent_trust(unmarked, SCALE, placed)[:2].max() < 0.5
+    agreement = PartPair(part, whole, both_partial=True).pair_consistency(SCALE, match)
+    trust = [consistent_trust(*agreement, np.full(2 * HALF, 0.5), count)[:2] for count in (2, 0)]
+    assert trust[0].tolist() == [1.0, 1.0]
+    assert trust[1].max() < 0.5
 
 
 @pytest.mark.parametrize(

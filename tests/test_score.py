@@ -32,7 +32,7 @@ GUARDS = ("kfmaps.matching.score",)
 QUALITY = Quality(0.9, 0.1, 0.12, 0.2, 0.1, 0.9, 0.05, 0.3)
 REGISTERED: dict[str, Any] = {"deformation_energy": 0.3, "strain": 0.4, "shot_error": 0.05}
 CANDIDATE = Candidate("a", np.eye(2), np.zeros(3, dtype=int), QUALITY, True, np.array([0.1, 0.9]), **REGISTERED)
-PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, 0.13, 2.0, 0.03)
+PART = PartEvidence(0.8, -2.0, 0.02, 0.01, 0.1, 0.95, -3.0, 0.13, 2.0, 0.03)
 
 MEASURES = {
     "w_orientation": ("orientation", 1.0),
@@ -57,6 +57,7 @@ PART_WEIGHTS = {
     "w_consistency": 4.0 * 0.8,
     "w_pair_consistency": 12.0 * 0.1,
     "w_similarity_rank": 2.0,
+    "w_overlap_rank": -4.0 * 0.3,
     "w_gap": -50.0 * 0.01,
     "w_scale": -1.5 * 0.25,
     "w_flipped": -4.0 * 0.1,
