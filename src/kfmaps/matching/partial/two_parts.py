@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.matching.partial.registration import PartRegistration, find_overlap
+from kfmaps.geometry.connectivity import renumbering
+from kfmaps.matching.partial.registration import Overlap, PartRegistration, find_overlap
 from kfmaps.matching.partial.samples import PartPair
 
 _RADII = (0.09, 0.14)
@@ -32,30 +33,40 @@ def consistent_trust(fits: np.ndarray, near: np.ndarray, trust: np.ndarray, n_la
 
 
 def overlap_evidence(found: PartRegistration, pair: PartPair) -> tuple[float, float]:
-    """Return how well distances on two parts agree in their overlap, 0 to 1, and the rank of SHOT there, at most 0.
-
-    Both parts are cut to the overlap, so that SHOT of both ends at the same places. The rank is the mean logarithm of
-    the share of the other part's samples that are more similar to a sample than its place. Samples count as far as
-    their distances agree with those of the others.
-    """
+    """Return how well distances on two parts agree in their overlap, 0 to 1, and the rank of SHOT there, at most 0."""
     part, whole, overlap = pair.part, pair.whole, find_overlap(found, pair.whole)
     match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(found.vertices[part.samples])[1])
     fits, near = pair.pair_consistency(found.scale, match)
     on = overlap.part[part.samples]
     agreement = float(on @ fits @ on / max(on @ near @ on, 1e-12))
-    weights = consistent_trust(fits, near, np.ones(len(match)), part.n_landmarks)
-    common = [common > 0.5 for common in (overlap.part, overlap.whole)]
-    faces = [of[one.mesh.faces].all(axis=1) for of, one in zip(common, (part, whole), strict=True)]
+    trust = consistent_trust(fits, near, np.ones(len(match)), part.n_landmarks)
+    return agreement, _overlap_rank(overlap, match, trust, found.scale, pair)
+
+
+def _overlap_rank(overlap: Overlap, match: np.ndarray, trust: np.ndarray, scale: float, pair: PartPair) -> float:
+    """Return the mean logarithm of the share of samples in an overlap that are more similar to a sample than its place.
+
+    Both parts are cut to the overlap, so that SHOT of both ends at the same places. Samples count as far as their
+    distances agree with those of the others.
+
+    ``match (q,)``: the other part's sample of each of the part's; ``trust (q,)``: weights of the samples.
+    """
+    part, whole = pair.part, pair.whole
+    faces = [
+        np.asarray((common > 0.5)[one.mesh.faces].all(axis=1))
+        for common, one in ((overlap.part, part), (overlap.whole, whole))
+    ]
     if not (faces[0].any() and faces[1].any()):
-        return agreement, 0.0
-    number, similarity = np.full(len(whole.samples), -1), 0.0
-    for radius in _RADII:
-        own, shot_p = part.shot_of_faces(faces[0], radius / found.scale)
-        there, shot_w = whole.shot_of_faces(faces[1], radius)
-        similarity = similarity + shot_p @ shot_w.T
-    number[there] = np.arange(len(there))
-    place = number[match[own]]
-    own, similarity, place = own[place >= 0], similarity[place >= 0], place[place >= 0]
-    n_better = (similarity > similarity[np.arange(len(own)), place][:, None]).sum(axis=1)
-    weights = weights[own] + 1e-3
-    return agreement, float(np.average(np.log((n_better + 1) / len(there)), weights=weights)) if len(own) else 0.0
+        return 0.0
+    own = [part.shot_of_faces(faces[0], radius / scale) for radius in _RADII]
+    other = [whole.shot_of_faces(faces[1], radius) for radius in _RADII]
+    similarity = np.sum([a @ b.T for (_, a), (_, b) in zip(own, other, strict=True)], axis=0)
+    samples, number = own[0][0], renumbering(other[0][0], len(whole.samples))
+    place = number[match[samples]]
+    on = np.flatnonzero(place >= 0)  # samples that lie on a sample of the overlap
+    if len(on) == 0:
+        return 0.0
+    at_place = similarity[on, place[on]]
+    n_better = (similarity[on] > at_place[:, None]).sum(axis=1)
+    least_weight = 1e-3
+    return float(np.average(np.log((n_better + 1) / similarity.shape[1]), weights=trust[samples[on]] + least_weight))
