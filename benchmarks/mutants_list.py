@@ -1106,7 +1106,8 @@ MUTANTS = tuple(
         # whether a part is stated wrongly, or both are parts
         ('and (is_cut or stated == "both")', "and is_cut", "test_parts -k wrong_statement"),
         ("_more_probable(best, other) if other.verdict in", "other if other.verdict in", "test_parts -k unsure_part"),
-        ("or not detection.both_open:", "or True:", "test_parts -k both_are_open"),
+        ("or not detection.both_open or", "or True or", "test_parts -k both_are_open"),
+        ('or tried == "both"', "", "test_parts -k matched_twice"),
         (
             "both_open = openings[whole] >= SCORE",
             "both_open = openings[part] >= SCORE",
@@ -1153,7 +1154,12 @@ MUTANTS = tuple(
         ("areas[normals @ middle > 0]", "areas[normals @ middle < 0]", "test_parts_one_view -k known"),
         ("_is_one_view(part) and not", "not", "test_parts_one_view -k known"),
         (" and not _is_one_view(whole)", "", "test_parts_one_view -k known"),
-        ("normals @ direction > _LEAST_COSINE", "normals @ direction < 0.9", "test_parts_one_view -k all_around"),
+        ("face_normals(mesh).T > _LEAST_COSINE", "face_normals(mesh).T < 0.9", "test_parts_one_view -k all_around"),
+        ("other[0][0], len(whole", "own[0][0], len(whole", "test_parts_alternatives -k ranks_the_right"),
+        ("similarity[on] > at_place", "similarity[on] < at_place", "test_parts_alternatives -k ranks_the_right"),
+        ("faces[0], radius / scale)", "faces[0], radius * scale)", "test_parts_alternatives -k ranks_the_right"),
+        ("mesh.vertices[kept], number", "mesh.vertices, number", "test_parts_alternatives -k some_faces"),
+        ("overlap_rank=rank, doubled_area=0.0", "overlap_rank=rank", "test_parts_alternatives -k overlap_alone"),
         ("np.pi * (3 - np.sqrt(5))", "np.pi / 3", "test_parts_one_view -k all_around"),
         ("radius / math.sqrt(area)", "radius", "test_parts_one_view -k no_ball"),
         ("np.maximum(most[:, seen], own @ ", "np.maximum(0, own @ ", "test_parts_one_view -k alike"),

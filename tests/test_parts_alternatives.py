@@ -398,7 +398,8 @@ def test_two_parts_are_scored_by_the_distances_in_their_overlap_alone(half, true
     assert two_parts.overlap_evidence(found, pair)[0] == pytest.approx(wanted)
     assert creature_pair.pair_consistency != true[0].evidence.pair_consistency == SCORE.part.usual_pair_consistency
     # What one of two parts has alone is folded onto the other, where the placement is right.
-    assert creature_pair.doubled_area == 0.0
+    folded = candidates_module._measure_candidate(true[0].placement, replace(found, doubled_area=0.2), pair)
+    assert folded.evidence.doubled_area == 0.0
 
 
 def test_shot_of_the_overlap_of_two_parts_ranks_the_right_place_first(half, true):
