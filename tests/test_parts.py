@@ -295,8 +295,8 @@ def test_two_parts_have_a_calibration_of_their_own(small, monkeypatch, which, wo
     assert asked == ([2, 0] if word == "unlikely" else [2])
 
 
-@pytest.mark.parametrize(("scale", "word"), [("auto", "likely"), ("free", "likely"), ("fixed", "sure")])
-def test_two_parts_are_sure_only_where_their_unit_is_known(small, monkeypatch, scale, word):
+@pytest.mark.parametrize("scale", ["auto", "free", "fixed"])
+def test_two_parts_are_likely_at_most_without_landmarks(small, monkeypatch, scale):
     places, all_ = vertex_point_map(np.arange(200), small.mesh), np.ones(200)
     found: Any = SimpleNamespace(
         registration=SimpleNamespace(scale=1.0, vertices=small.mesh.vertices),
@@ -308,13 +308,13 @@ def test_two_parts_are_sure_only_where_their_unit_is_known(small, monkeypatch, s
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: found)
     config = replace(SMALL, partial=Partial("both", scale))
     match = match_partial(task_of(small, small, NO_LANDMARKS, config), "both", "because")[0]
-    assert match.verdict == word
-    assert (match.confidence or 0.0) < 0.9 or word == "sure"
+    assert match.verdict == "likely"
+    assert (match.confidence or 0.0) < 0.9
 
 
 def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeypatch):
     """As those of whole shapes do, by the share of what is common that lies near them, in the unit of the whole."""
-    numbers = replace(SCORE.part.calibration_of_two, max_fit=SCORE.part.max_fit_of_unknown_unit)
+    numbers = replace(SCORE.part.calibration_of_two, max_fit=SCORE.part.max_fit_of_two)
     vertices, half, scale = small.mesh.vertices, np.arange(200) < 100, 0.5
     places = vertex_point_map(np.arange(200), small.mesh)
     overlap = SimpleNamespace(part=half * 1.0, whole=half * 1.0, on_whole=places, on_part=places)

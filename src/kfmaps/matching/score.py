@@ -80,8 +80,8 @@ class PartScoring:
     """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`."""
     calibration_of_view: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2, tie=1.6))
     """The same for scans of one camera, whose wrong placements have had a margin of 2.2."""
-    max_fit_of_unknown_unit: float = 0.89
-    """:attr:`Calibration.max_fit` of two parts unless their unit is known to be one: boxes of other sizes fit too."""
+    max_fit_of_two: float = 0.89
+    """:attr:`Calibration.max_fit` of two parts, never "sure" without landmarks: wrong placements have scored 19.6."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0

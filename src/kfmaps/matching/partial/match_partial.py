@@ -65,8 +65,8 @@ def match_partial(
     )
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = placing.calibration
-    if which == "both" and settings.scale != "fixed":
-        numbers = replace(numbers, max_fit=SCORE.part.max_fit_of_unknown_unit)
+    if which == "both":
+        numbers = replace(numbers, max_fit=SCORE.part.max_fit_of_two)
     found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")
     overlap, scale = found.overlap, found.registration.scale
     scaled = scale_mesh(part.mesh, scale)
