@@ -314,7 +314,7 @@ def test_two_parts_are_likely_at_most_without_landmarks(small, monkeypatch, scal
 
 def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeypatch):
     """As those of whole shapes do, by the share of what is common that lies near them, in the unit of the whole."""
-    numbers = replace(SCORE.part.calibration_of_two, max_fit=SCORE.part.max_fit_of_two)
+    numbers = SCORE.part.calibration_of_two
     vertices, half, scale = small.mesh.vertices, np.arange(200) < 100, 0.5
     places = vertex_point_map(np.arange(200), small.mesh)
     overlap = SimpleNamespace(part=half * 1.0, whole=half * 1.0, on_whole=places, on_part=places)
@@ -405,6 +405,18 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
 def fake_match(word: str, confidence: float, scale: float = 0.7, energy: float | None = None) -> SimpleNamespace:
     score = SimpleNamespace(deformation_energy=energy)
     return SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart(scale=scale), score=score)
+
+
+def parts_tried(monkeypatch: pytest.MonkeyPatch, answers: dict[str, Any]) -> list[str]:
+    """The parts that are matched from now on, in order, as they are; their matches are the ``answers``."""
+    tried = []
+
+    def matched(_task, which, *_, **__):
+        tried.append(which)
+        return answers[which], False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    return tried
 
 
 @pytest.mark.parametrize(
@@ -563,13 +575,7 @@ def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_
     answers = {which: fake_match("ambiguous", value) for which, value in (("target", 0.4), ("both", 0.45))}
     confidence = 0.95 if word == "sure" else 0.3
     answers["source"] = fake_match(word, confidence)
-    tried = []
-
-    def matched(_task, which, *_, **__):
-        tried.append(which)
-        return answers[which], False
-
-    monkeypatch.setattr(match_module, "match_partial", matched)
+    tried = parts_tried(monkeypatch, answers)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, both_open))
     assert match_module.match(small, small, AUTO) is answers[expected]
     assert tried == steps
@@ -577,13 +583,7 @@ def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_
 
 def test_two_parts_that_were_stated_are_not_matched_twice(monkeypatch, small):
     answers = {which: fake_match("ambiguous", 0.4) for which in ("source", "target", "both")}
-    tried = []
-
-    def matched(_task, which, *_, **__):
-        tried.append(which)
-        return answers[which], False
-
-    monkeypatch.setattr(match_module, "match_partial", matched)
+    tried = parts_tried(monkeypatch, answers)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, True))
     stated = replace(AUTO, partial=replace(AUTO.partial, part="both"))
     assert match_module.match(small, small, stated) is answers["both"]
@@ -612,13 +612,7 @@ def test_an_open_scan_may_hold_all_of_a_closed_shape(
     part = fake_match(word, 0.6, scale=scale)
     opposite = fake_match("likely", output, scale=scale_of_opposite)
     answers = {"target": part, "source": opposite}
-    tried = []
-
-    def matched(_task, which, *_, **__):
-        tried.append(which)
-        return answers[which], False
-
-    monkeypatch.setattr(match_module, "match_partial", matched)
+    tried = parts_tried(monkeypatch, answers)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3))
     config = replace(AUTO, partial=replace(AUTO.partial, part=asked))
     found = match_module.match(small, small, config, landmarks=landmarks)

@@ -65,9 +65,9 @@ class Calibration:
     """Largest probability unless landmarks raise it."""
 
 
-def _part_calibration(slope: float, middle: float, tie: float = 1.3) -> Calibration:
+def _part_calibration(slope: float, middle: float, tie: float = 1.3, max_fit: float = 1.0) -> Calibration:
     """Return the calibration of parts, which have one logistic function."""
-    return Calibration(slope, middle, steep_middle=math.inf, tie=tie, max_margin=3.0)
+    return Calibration(slope, middle, steep_middle=math.inf, tie=tie, max_margin=3.0, max_fit=max_fit)
 
 
 @dataclass(frozen=True)
@@ -76,12 +76,11 @@ class PartScoring:
 
     calibration: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2))
     """Fitted by `benchmarks/parts_verdict.py`."""
-    calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9))
-    """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`."""
+    calibration_of_two: Calibration = field(default_factory=lambda: _part_calibration(1 / 2.7, 9.9, max_fit=0.89))
+    """The same for two parts, which score lower when right; fitted to the pairs of `benchmarks/part_to_part.py`. They
+    are never "sure" without landmarks: wrong placements have scored 19.6."""
     calibration_of_view: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2, tie=1.6))
     """The same for scans of one camera, whose wrong placements have had a margin of 2.2."""
-    max_fit_of_two: float = 0.89
-    """:attr:`Calibration.max_fit` of two parts, never "sure" without landmarks: wrong placements have scored 19.6."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0

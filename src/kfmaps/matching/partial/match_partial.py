@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import Literal
 
@@ -51,11 +50,10 @@ def match_partial(
     pairs = task.pair.clean_landmarks(task.landmarks)
     landmarks = pairs[:, ::-1] if is_target else pairs
     ratio = ratio if is_target or ratio is None else 1 / ratio
-    settings = task.config.partial
     placing = PartTask(
         part.mesh,
         whole.mesh,
-        settings,
+        task.config.partial,
         ratio,
         which == "both",
         task.seed,
@@ -65,8 +63,6 @@ def match_partial(
     )
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
     numbers = placing.calibration
-    if which == "both":
-        numbers = replace(numbers, max_fit=SCORE.part.max_fit_of_two)
     found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")
     overlap, scale = found.overlap, found.registration.scale
     scaled = scale_mesh(part.mesh, scale)
