@@ -183,6 +183,11 @@ def test_views_follow_the_truth_and_not_the_map() -> None:
     turn, alike = fit_rotation(_centred(mesh.vertices[back_for_front]), _centred(mesh.vertices))
     assert alike > _MIN_CORRELATION, "the map alone says that the camera should go round"
     assert np.trace(turn) < 0
+    rows = mesh.vertices[:, 0] > 0  # a part that lies turned, elsewhere
+    part = Mesh(mesh.vertices[rows] * [-1, 1, -1] + 3, np.zeros((0, 3), int))
+    halved = np.flatnonzero(rows)
+    halved[::5] = -1
+    np.testing.assert_allclose(following_view(seen, mesh, part, halved).axes(), followed.axes(), atol=1e-6)
     figure = match_figure(mesh, turned, nonsense, view=seen, target_view=followed)
     own, same = (ax.get_xlim() for ax in figure.axes[:2])
     np.testing.assert_allclose(own, same, atol=1e-6)

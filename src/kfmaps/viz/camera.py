@@ -164,17 +164,21 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
 
     The map proposes a rotation, or the principal axes where the map has too little correlation. Half turns about each
     principal axis propose three more, since the map may confuse back and front. The one with the smallest distances
-    between the shapes is taken, where they are much smaller than without a rotation, since poses differ too. Shapes of
-    different kinds, such as a man and a cat, are each seen upright and from their own broad side instead.
+    between the shapes is taken, where they are much smaller than without a rotation, since poses differ too. Of parts
+    only what has a counterpart is compared. Shapes of different kinds, such as a man and a cat, are each seen upright
+    and from their own broad side instead.
     """
-    a, b = _standard(source.vertices), _standard(target.vertices)
+    proposal, correlation, a, b = np.eye(3), 0.0, source.vertices, target.vertices
+    if target_to_source is not None:
+        target_to_source = np.asarray(target_to_source)
+        matched = target_to_source >= 0
+        if matched.any():
+            ends = a[target_to_source[matched]], b[matched]
+            proposal, correlation = fit_rotation(*ends)
+            a, b = (a, b) if matched.all() else ends
+    a, b = _standard(a), _standard(b)
     axes = np.linalg.eigh(a.T @ a)[1]
     half_turns = [np.eye(3), *(Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)]
-    proposal, correlation = np.eye(3), 0.0
-    if target_to_source is not None:
-        matched = np.asarray(target_to_source) >= 0
-        if matched.any():
-            proposal, correlation = fit_rotation(a[np.asarray(target_to_source)[matched]], b[matched])
     if correlation >= _MIN_CORRELATION and _are_unlike(source, target, np.asarray(target_to_source)):
         rotation = broad_side(target).axes().T @ broad_side(source).axes()
         return rotation if _is_turned(rotation) else None
