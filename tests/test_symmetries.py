@@ -21,7 +21,13 @@ from kfmaps.matching import candidates as candidates_module
 from kfmaps.matching import orientation, search, search_result
 from kfmaps.matching import self_maps as self_maps_module
 from kfmaps.matching.candidates import candidates, distinct_maps, has_clear_map, refine_coarse, score_maps
-from kfmaps.matching.extremity_matching import ExtremityMatch, asymmetry, extremity_difference, match_of_map
+from kfmaps.matching.extremity_matching import (
+    ExtremityMatch,
+    asymmetry,
+    extremity_difference,
+    match_of_map,
+    similar_matches,
+)
 from kfmaps.matching.finish import _doubt_exchanged
 from kfmaps.matching.initial_maps import Start, symmetry_inits
 from kfmaps.matching.limb_exchange import _MAX_DIFFERENCE, compare_exchanged, exchange_limbs, exchanged_matches
@@ -259,10 +265,10 @@ def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, m
 ARMS = 5
 
 
-def starfish_body():
+def starfish_body(n_arms=ARMS):
     trunk = Limb("trunk", None, ((0, 0, -0.05, 0.2), (0, 0, 0, 0.22), (0, 0, 0.05, 0.2)))
     arms = []
-    for i, a in enumerate(2 * np.pi * np.arange(ARMS) / ARMS):
+    for i, a in enumerate(2 * np.pi * np.arange(n_arms) / n_arms):
         balls = ((r * np.cos(a), r * np.sin(a), 0, thick) for r, thick in ((0.1, 0.14), (0.4, 0.11), (0.8, 0.05)))
         arms.append(Limb(f"arm {i}", "trunk", tuple(balls)))
     return Body((trunk, *arms))
@@ -281,6 +287,20 @@ def test_a_starfish_is_turned_onto_itself():
         images = of.positions[images_of(C, of)]
         off = [np.linalg.norm(images - of.positions @ R, axis=1).mean() for R in around]
         assert min(off) < 0.06 < 0.3 < max(off)
+
+
+def test_all_nine_arms_are_exchanged_and_the_seven_farthest_matched():
+    body = starfish_body(9)
+    vertices, faces = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
+    of = subsample(sample_for_scoring(prepare(Mesh(vertices, faces), SMALL)), 400)
+    assert len(of.extremities.points) == 9
+    matches = similar_matches(of, of)
+    assert {len(one.source) for one in matches} == {6, 7}
+    assert max(max(one.source.max(), one.target.max()) for one in matches) == 6
+    everywhere: Any = match_of_map(np.arange(400), of, of)
+    alone = [one for one in exchanged_matches(everywhere, of) if (one.source != everywhere.source).sum() == 2]
+    assert len(alone) == 10
+    assert any(one.source[8] != 8 or one.source[7] != 7 for one in alone)
 
 
 def table_body():
@@ -531,6 +551,19 @@ def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
         assert len(order) == 2
         assert wrong_area(order[0], symmetric) < 0.03 < wrong_area(order[1], symmetric)
         assert order[0].score > order[1].score + SCORE.close_margin
+    # Nearer than this it is no rival, unless it scores better.
+    few = replace(SCORE, max_behind=99.0, min_exchange_distance=1.0)
+    monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", few)
+    assert compare_exchanged(symmetric.right, symmetric.fine, symmetric.proxies) == [symmetric.right]
+    assert wrong_area(compare_exchanged(exchanged, symmetric.fine, symmetric.proxies)[0], symmetric) < 0.03
+
+
+def test_two_pairs_of_exchanged_limbs_are_mended_one_after_the_other(symmetric, exchanged, monkeypatch):
+    monkeypatch.setattr("kfmaps.matching.limb_exchange._mirrored_pairs", lambda *_: [])
+    twice = max(exchange_limbs(exchanged, symmetric.fine), key=lambda one: wrong_area(one, symmetric))
+    assert wrong_area(twice, symmetric) > wrong_area(exchanged, symmetric) + 0.05
+    mended = compare_exchanged(twice, symmetric.fine, symmetric.proxies)[0]
+    assert wrong_area(mended, symmetric) < 0.03
 
 
 def test_exchanged_limbs_with_a_close_score_cast_a_doubt(symmetric, exchanged, monkeypatch):

@@ -61,7 +61,7 @@ def extremities(
     unit = float(mean_distance @ (mass / mass.sum())) or 1.0
     near = distances < _MIN_DISTANCE
     maxima = [i for i, d in enumerate(mean_distance) if d >= mean_distance[near[i]].max(initial=0.0)]
-    most = 7  # a human has five extremities, animals have six or seven
+    most = 12  # a human has five extremities, animals have six to eight, a crab eight, spiders and ants nine
     points = np.array(sorted(maxima, key=lambda i: -mean_distance[i])[:most], dtype=np.int64)
     every = at_all_vertices(mesh, rows[points], unit, graph)
     distances, gradient_cross = every.distances[:, rows], every.gradient_cross[:, :, rows]

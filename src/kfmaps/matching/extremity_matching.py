@@ -99,16 +99,18 @@ def similar_matches(source: ShapeSamples, target: ShapeSamples) -> list[Extremit
     from a leg.
     """
     a, b = source.extremities, target.extremities
-    between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
+    most = 7  # of each shape, the farthest: all permutations are compared
+    points_s, points_t = a.points[:most], b.points[:most]
+    between_s, between_t = a.distances[:most, points_s], b.distances[:most, points_t]
     difference = extremity_difference(source, target)
-    both = min(len(a.points), len(b.points))
+    both = min(len(points_s), len(points_t))
     reflected = source.reflected_extremities, target.reflected_extremities
     costs, matches = [], []
     min_complete = 5  # number of extremities from which one may be left out
     unmatched_cost = 0.15  # of all extremities; that of one is its share. An ear of a dog has no partner on a cat.
     for size in (both, both - 1) if both >= min_complete else (both,):
-        images = np.array(list(permutations(range(len(b.points)), size)))
-        for chosen in combinations(range(len(a.points)), size):
+        images = np.array(list(permutations(range(len(points_t)), size)))
+        for chosen in combinations(range(len(points_s)), size):
             distances_s = between_s[np.ix_(chosen, chosen)]
             distances_t = between_t[images[:, :, None], images[:, None, :]]
             cost = np.abs(distances_t - distances_s).sum(axis=(1, 2)) / (size * (size - 1))

@@ -11,7 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
-from kfmaps.matching.candidates import FINE_WEIGHTS, by_score, refine_batch
+from kfmaps.matching.candidates import FINE_WEIGHTS, by_score, map_distance, refine_batch
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, extremity_difference, match_of_map
 from kfmaps.matching.initial_maps import Start, distinct_weights
 from kfmaps.matching.quality import ShapeSamples
@@ -19,9 +19,9 @@ from kfmaps.matching.ranking import ProxyCache, rerank_close, with_deformation_e
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
 
-_MAX_DIFFERENCE = 0.3
+_MAX_DIFFERENCE = 0.5
 """Difference of two extremities (:func:`extremity_difference`) up to which their limbs are exchanged. The legs of one
-side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more."""
+side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more, branches of a tree up to 0.43."""
 
 
 def exchange_limbs(best: Candidate, pair: SamplePair) -> list[Candidate]:
@@ -55,7 +55,7 @@ def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[Extre
     """
     difference = extremity_difference(source, source)[np.ix_(match.source, match.source)]
     pairs = sorted((difference[i, j], i, j) for i, j in combinations(range(len(match.source)), 2))
-    most = 4  # pairs of limbs that are exchanged alone, the most similar
+    most = 10  # pairs of limbs that are exchanged alone, the most similar
     alone = [((i, j),) for d, i, j in pairs[:most] if d <= _MAX_DIFFERENCE]
     return [_exchanged(match, both) for both in (*alone, *_mirrored_pairs(match, source))]
 
@@ -85,13 +85,25 @@ def _exchanged(match: ExtremityMatch, pairs: tuple[tuple[int, int], ...]) -> Ext
 def compare_exchanged(best: Candidate, pair: SamplePair, proxies: ProxyCache) -> list[Candidate]:
     """Return the map and the best one with limbs exchanged, the better first, scored by the same evidence.
 
-    Return the map alone where no exchange has nearly as good a score.
+    Return one alone where no other has nearly as good a score, or hardly differs: two ears exchanged make no rival.
     """
     start = best.unregistered
-    exchanged = [c for c in exchange_limbs(start, pair) if c.score > start.score - SCORE.max_behind]
-    registered = with_deformation_energy([start, *exchanged], proxies) if exchanged else []
+
+    def may_win(other: Candidate) -> bool:
+        return other.score > (start.score if _are_alike(other, start, pair) else start.score - SCORE.max_behind)
+
+    found = exchange_limbs(start, pair)
+    if found and by_score(found)[0].score > start.score:  # of three legs, each taken for the next, two exchanges
+        found += exchange_limbs(by_score(found)[0], pair)
+    exchanged = [c for c in found if may_win(c)]
+    registered = by_score(with_deformation_energy([start, *exchanged], proxies)) if exchanged else []
     if not registered:
         return [best]
-    order = by_score([registered[0], by_score(registered[1:])[0]])
-    margin = order[0].score - order[1].score
-    return rerank_close(order, proxies) if margin < SCORE.shot_margin else order
+    order = [registered[0], *(c for c in registered[1:] if not _are_alike(c, registered[0], pair))][:2]
+    is_close = len(order) == 2 and order[0].score - order[1].score < SCORE.shot_margin
+    return rerank_close(order, proxies) if is_close else order
+
+
+def _are_alike(one: Candidate, other: Candidate, pair: SamplePair) -> bool:
+    """Return whether two maps differ by less than two with limbs exchanged do."""
+    return map_distance(one, other, pair.source) < SCORE.min_exchange_distance

@@ -228,6 +228,8 @@ class Scoring:
     """Distance from which maps near the best are registered too: exchanged feet that touch make this difference."""
     twin_distance: float = 0.03
     """Distance up to which two repaired candidates are the same: a limb that lies elsewhere makes 0.05."""
+    min_exchange_distance: float = 0.015
+    """Distance from which a map with limbs exchanged is a rival: two ears make 0.013, two legs 0.019 to 0.1."""
     early_exit_score: float = -7.0
     """:attr:`Quality.score` of a coarse map from which kernel fits are left out: people have −4 to −10, animals
     of different kinds −8.5 and less."""

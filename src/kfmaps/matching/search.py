@@ -379,8 +379,7 @@ def _compare_exchanged(state: SearchState) -> SearchState:
     """Compare the best map with itself with limbs exchanged; the worse of the two becomes a doubt."""
     best = state.ranked[0]
     order = compare_exchanged(best, state.samples.fine, state.proxies)
-    if len(order) == 1:
-        return state
     is_same = order[0].functional_map is best.functional_map
     ranked = state.ranked if is_same else [order[0], *state.ranked[1:]]
-    return replace(state, ranked=ranked, doubts=(*state.doubts, (order[1], order[0].score - order[1].score)))
+    doubts = [(worse, order[0].score - worse.score) for worse in order[1:]]
+    return replace(state, ranked=ranked, doubts=(*state.doubts, *doubts))
