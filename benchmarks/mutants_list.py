@@ -334,6 +334,13 @@ MUTANTS = tuple(
             "if d <= mean_distance[near[i]].max(initial=0.0)",
             "test_extremities -k far_from",
         ),
+        ("if not _are_alike(c, registered[0], pair)", "if True", "test_symmetries -k exchanged"),
+        (
+            "found += exchange_limbs(by_score(found)[0], pair)",
+            "found += []",
+            "test_symmetries -k exchanged",
+        ),
+        ("a, b = (a, b) if matched.all() else ends", "a, b = a, b", "test_render -k follow"),
         (
             "cost = np.abs(distances_t - distances_s).sum(axis=(1, 2)) / (size * (size - 1))",
             "cost = np.zeros(len(images))",

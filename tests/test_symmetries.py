@@ -555,7 +555,8 @@ def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
     few = replace(SCORE, max_behind=99.0, min_exchange_distance=1.0)
     monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", few)
     assert compare_exchanged(symmetric.right, symmetric.fine, symmetric.proxies) == [symmetric.right]
-    assert wrong_area(compare_exchanged(exchanged, symmetric.fine, symmetric.proxies)[0], symmetric) < 0.03
+    (mended,) = compare_exchanged(exchanged, symmetric.fine, symmetric.proxies)
+    assert wrong_area(mended, symmetric) < 0.03
 
 
 def test_two_pairs_of_exchanged_limbs_are_mended_one_after_the_other(symmetric, exchanged, monkeypatch):
