@@ -175,7 +175,7 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
         if matched.any():
             ends = a[target_to_source[matched]], b[matched]
             proposal, correlation = fit_rotation(*ends)
-            a, b = (a, b) if matched.all() else ends
+            a, b = (a, b) if matched.all() and _covers(ends[0], a) else ends
     a, b = _standard(a), _standard(b)
     axes = np.linalg.eigh(a.T @ a)[1]
     half_turns = [np.eye(3), *(Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)]
@@ -191,6 +191,13 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
     best = int(np.argmin(misfits))
     is_better = misfits[best] < _MAX_MISFIT_RATIO * _misfit(samples_a, samples_b)
     return rotations[best] if is_better and _is_turned(rotations[best]) else None
+
+
+def _covers(reached: np.ndarray, points: np.ndarray) -> bool:
+    """Return whether the points of a shape, (n, 3), that a map reaches, (q, 3), are all over it."""
+    radius = np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean())
+    away = KDTree(reached).query(points)[0] / max(radius, 1e-300)
+    return bool((away > 0.2).mean() < 0.1)
 
 
 def _is_turned(rotation: np.ndarray) -> bool:
