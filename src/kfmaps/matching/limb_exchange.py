@@ -92,9 +92,9 @@ def compare_exchanged(best: Candidate, pair: SamplePair, proxies: ProxyCache) ->
     def may_win(other: Candidate) -> bool:
         return other.score > (start.score if _are_alike(other, start, pair) else start.score - SCORE.max_behind)
 
-    found = exchange_limbs(start, pair)
-    if found and by_score(found)[0].score > start.score:  # of three legs, each taken for the next, two exchanges
-        found += exchange_limbs(by_score(found)[0], pair)
+    found = by_score(exchange_limbs(start, pair))
+    if found and found[0].score > start.score:  # three legs, each taken for the next, need two exchanges
+        found += exchange_limbs(found[0], pair)
     exchanged = [c for c in found if may_win(c)]
     registered = by_score(with_deformation_energy([start, *exchanged], proxies)) if exchanged else []
     if not registered:

@@ -195,9 +195,9 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
 
 def _covers(reached: np.ndarray, points: np.ndarray) -> bool:
     """Return whether the points of a shape, (n, 3), that a map reaches, (q, 3), are all over it."""
+    far, most = 0.2, 0.1  # distance, over the root mean square one from the centre, and share of points that far
     radius = np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean())
-    away = KDTree(reached).query(points)[0] / max(radius, 1e-300)
-    return bool((away > 0.2).mean() < 0.1)
+    return bool((KDTree(reached).query(points)[0] > far * radius).mean() < most)
 
 
 def _is_turned(rotation: np.ndarray) -> bool:
