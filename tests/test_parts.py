@@ -23,7 +23,7 @@ from kfmaps.matching import match as match_module
 from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
-from kfmaps.matching.partial.match_partial import describe_part, match_partial
+from kfmaps.matching.partial.match_partial import describe_part, file_ratio, match_partial
 from kfmaps.matching.partial.place_part import GivenUp, PartTask, _same_units, place_part
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
@@ -402,7 +402,7 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
             np.testing.assert_allclose(found.trust[i], max(share[best] - 0.3, 0) / 0.7, rtol=1e-9, atol=1e-12)
 
 
-def fake_match(word: str, confidence: float, scale: float = 0.7, energy: float | None = None) -> SimpleNamespace:
+def fake_match(word: str, confidence: float, scale: float = 0.85, energy: float | None = None) -> SimpleNamespace:
     score = SimpleNamespace(deformation_energy=energy)
     return SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart(scale=scale), score=score)
 
@@ -479,6 +479,69 @@ def test_an_unsure_part_is_matched_as_a_whole_with_holes_too(
     if asked == "auto":  # whether the other shape is tried as the part too
         is_whole = opening < 0.05 or (deformed and opening < 0.2)
         assert bool(opposites) == (result.verdict != "sure" and not is_whole)
+
+
+@pytest.mark.parametrize(
+    ("word", "scale", "asked", "as_whole"),
+    [
+        ("ambiguous", 0.83, "auto", False),  # 69 % of the area
+        ("ambiguous", 0.84, "auto", True),
+        ("ambiguous", 0.83, "target", False),
+        ("ambiguous", 0.84, "target", True),
+        ("unlikely", 0.83, "auto", True),
+        ("unlikely", 0.83, "target", True),
+    ],
+)
+def test_a_part_with_holes_that_is_too_small_for_a_whole_is_not_matched_as_one(
+    monkeypatch, small, word, scale, asked, as_whole
+):
+    part, tried = fake_match(word, 0.4, scale=scale), []
+    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, False))
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: tried.append(1) or fake_match("unlikely", 0.1))
+    monkeypatch.setattr(match_module, "_compare_opposite", lambda _task, best, _which: best)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.1))
+    assert match_module.match(small, small, replace(AUTO, partial=replace(AUTO.partial, part=asked))) is part
+    assert bool(tried) == as_whole
+
+
+@pytest.mark.parametrize(
+    ("which", "ratio", "scale", "steps"),
+    [
+        ("target", 0.6, 0.6, ["target"]),
+        ("target", 0.6, 0.77, ["target", "whole"]),  # of 0.59 of the area
+        ("target", 0.6, 0.79, ["target", "whole", "source"]),  # a factor of 1.3 from the scale of the files
+        ("target", 0.6, 0.45, ["target", "whole", "source"]),
+        ("target", 0.6, 0.47, ["target"]),
+        ("target", 1.1, 0.9, ["target", "whole", "source"]),  # a scan with its floor is larger in the files
+        ("target", None, 0.6, ["target", "whole", "source"]),
+        ("source", 1 / 0.6, 0.6, ["source"]),
+        ("source", 0.6, 0.6, ["source", "whole", "target"]),
+    ],
+)
+def test_a_part_at_the_scale_of_the_files_shows_that_both_are_in_one_unit(
+    monkeypatch, small, which, ratio, scale, steps
+):
+    """So the other shape is no part of it, and with less than half of the area it is no whole with another scale."""
+    part, tried = fake_match("unlikely", 0.4, scale=scale), []
+    part.partial = replace(part.partial, which=which)
+
+    def matched(_task, side, *_, **__):
+        tried.append(side)
+        return part if side == which else fake_match("unlikely", 0.1), False
+
+    monkeypatch.setattr(match_module, "match_partial", matched)
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: tried.append("whole") or fake_match("unlikely", 0.1))
+    monkeypatch.setattr(match_module, "file_ratio", lambda *_: ratio)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection(which, "open", 0.3))
+    assert match_module.match(small, small, AUTO) is part
+    assert tried == steps
+
+
+def test_files_have_a_ratio_of_sizes_unless_one_is_not_known(small):
+    larger = replace(small, extent=2.5 * small.extent)
+    assert file_ratio(small, larger) == pytest.approx(2.5)
+    assert file_ratio(small, replace(small, extent=None)) is None
+    assert file_ratio(replace(small, extent=None), small) is None
 
 
 @pytest.mark.parametrize(

@@ -221,7 +221,7 @@ def test_what_regrowth_gains_too_little_or_loses_much_is_left(half, monkeypatch)
         (19.99 - limit, 21.0, 0.0, False),
         (20.01 - limit, 21.0, 0.0, True),
     ):
-        monkeypatch.setattr(candidates_module, "_grow", lambda *_: None)
+        monkeypatch.setattr(candidates_module, "_grow", lambda *_: stub(0.0, 0.0))
         monkeypatch.setattr(candidates_module, "make_candidate", lambda *_, _score=score: stub(_score, 0.0))
         monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_, _to=(refined, where): stub(*_to))
         order: Any = candidates_module.regrow_best([best], half[0])
@@ -229,9 +229,17 @@ def test_what_regrowth_gains_too_little_or_loses_much_is_left(half, monkeypatch)
         assert len(order) == 1 + first
 
 
+def test_of_what_grows_the_three_best_placements_are_registered(half, monkeypatch):
+    grown, registered = iter((1.0, 7.0, 2.0, 8.0, 3.0, 9.0, 4.0, 5.0)), []
+    monkeypatch.setattr(candidates_module, "_grow", lambda *_: stub(next(grown), 0.0))
+    monkeypatch.setattr(candidates_module, "make_candidate", lambda one, _: registered.append(one.score) or one)
+    candidates_module.regrow_best([stub(20.0, 0.0)], half[0])
+    assert registered == [9.0, 8.0, 7.0]
+
+
 def test_of_the_scan_of_one_camera_the_second_candidate_grows_too(half, monkeypatch):
     order, grown = [stub(20.0, 0.0), stub(19.9, 0.0), stub(19.0, 1.0), stub(18.0, 2.0)], []
-    monkeypatch.setattr(candidates_module, "_grow", lambda one, *_: grown.append(one))
+    monkeypatch.setattr(candidates_module, "_grow", lambda one, *_: grown.append(one) or one)
     monkeypatch.setattr(candidates_module, "make_candidate", lambda *_: stub(19.5, 0.0))
     monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_: stub(21.0, 1.0))
     monkeypatch.setattr(candidates_module, "_place_symmetrically", lambda *_: [])
@@ -245,8 +253,10 @@ def test_of_the_scan_of_one_camera_the_second_candidate_grows_too(half, monkeypa
 @pytest.mark.parametrize(("is_one_view", "grown", "expected"), [(True, 21.0, 2), (True, 19.0, 0), (False, 21.0, 0)])
 def test_a_scan_of_one_camera_that_has_grown_is_turned_once_more(is_one_view, grown, expected, half, monkeypatch):
     turned = []
-    monkeypatch.setattr(candidates_module, "_grow", lambda *_: None)
-    monkeypatch.setattr(candidates_module, "make_candidate", lambda placement, _: stub(18.5, 2.0 if placement else 0.0))
+    monkeypatch.setattr(candidates_module, "_grow", lambda *_: stub(0.0, 0.0))
+    monkeypatch.setattr(
+        candidates_module, "make_candidate", lambda placement, _: stub(18.5, 2.0 if placement in ("a", "b") else 0.0)
+    )
     monkeypatch.setattr(candidates_module, "refine_placement", lambda _, placement: placement)
     monkeypatch.setattr(
         candidates_module, "_refine_candidate", lambda one, _: stub(grown if one.points[0, 0] == 0 else 20.5, 0.0)
@@ -596,20 +606,28 @@ def test_a_search_for_a_large_part_is_given_up_where_all_likely_placements_are_s
 
 
 @pytest.mark.parametrize(
-    ("score", "scale", "both", "agree", "ahead", "clear"),
+    ("score", "scale", "both", "agree", "ahead", "clear", "grows"),
     [
-        (0.0, 0.5, False, 97, 9.0, True),
-        (9.0, 0.9, False, 96, 9.0, False),
-        (-0.1, 0.9, False, 100, 9.0, False),
-        (9.0, 0.49, False, 100, 9.0, False),
-        (9.0, 0.9, True, 100, 9.0, False),
-        (9.0, 0.9, False, 100, 0.5, False),  # an alternative is nearly as good
+        (0.0, 0.5, False, 97, 9.0, True, False),
+        (9.0, 0.9, False, 96, 9.0, False, False),
+        (-0.1, 0.9, False, 100, 9.0, False, False),
+        (9.0, 0.49, False, 100, 9.0, False, False),
+        (9.0, 0.9, True, 100, 9.0, False, False),
+        (9.0, 0.9, False, 100, 0.5, True, True),  # an alternative is nearly as good
+        (9.0, 0.9, False, 96, 0.5, False, True),
     ],
 )
 def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_clear(
-    monkeypatch: pytest.MonkeyPatch, score: float, scale: float, both: bool, agree: int, ahead: float, clear: bool
+    monkeypatch: pytest.MonkeyPatch,
+    score: float,
+    scale: float,
+    both: bool,
+    agree: int,
+    ahead: float,
+    clear: bool,
+    grows: bool,
 ) -> None:
-    """Its alternatives are looked for all the same."""
+    """Its alternatives are looked for all the same, and it grows anew unless it is "sure"."""
     each = np.arange(100)
     one, again = (
         SimpleNamespace(
@@ -620,8 +638,9 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
         )
         for match in (each, np.where(each < agree, each, (each + 50) % 100))
     )
-    likely = SimpleNamespace(scale=1.0)
+    likely = SimpleNamespace(scale=1.0, score=SCORE.part.early_exit_score)
     scales_tried: list[list[float]] = []
+    grown: list[Any] = []
 
     def try_scales(_pair: Any, scales: list[float], params: Any = TRIALS[0]) -> list[Any]:
         if params is TRIALS[1]:
@@ -636,7 +655,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
     monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
     monkeypatch.setattr(place_part, "_likely_placements", lambda *_: [likely])
     monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
-    monkeypatch.setattr(place_part, "regrow_best", lambda found, _pair: found)
+    monkeypatch.setattr(place_part, "regrow_best", lambda found, _pair: grown.append(found) or found)
     monkeypatch.setattr(place_part, "margin", lambda *_: ahead)
     line = np.abs(each[:, None] - each) * 0.05
     pair: Any = SimpleNamespace(
@@ -652,6 +671,7 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
     assert found == ([one] if clear else [likely])
     assert scales_tried[0] == [0.9]  # the scale of the files comes first
     assert len(scales_tried) == (1 if clear else 2)
+    assert grown == ([found] if grows else [])
     if not clear:
         one.scale = 0.836  # of less than 70 % of the area: a part rather than a whole with holes
         task = replace(task, clear_area=SCORE.part.min_whole_area)

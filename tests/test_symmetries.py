@@ -298,7 +298,7 @@ def test_all_nine_arms_are_exchanged_and_the_seven_farthest_matched():
     assert {len(one.source) for one in matches} == {6, 7}
     assert max(max(one.source.max(), one.target.max()) for one in matches) == 6
     everywhere: Any = match_of_map(np.arange(400), of, of)
-    alone = [one for one in exchanged_matches(everywhere, of) if (one.source != everywhere.source).sum() == 2]
+    alone = [one for one in exchanged_matches(everywhere, of, of) if (one.source != everywhere.source).sum() == 2]
     assert len(alone) == 10
     assert any(one.source[8] != 8 or one.source[7] != 7 for one in alone)
 
@@ -506,7 +506,7 @@ def test_alike_extremities_are_exchanged_two_at_a_time(symmetric):
     match: Any = match_of_map(symmetric.right.points, symmetric.fine.source, symmetric.fine.target)
     unlike = extremity_difference(symmetric.fine.source, symmetric.fine.source)
     assert np.diag(unlike) == pytest.approx(0.0)
-    some = exchanged_matches(match, symmetric.fine.source)
+    some = exchanged_matches(match, symmetric.fine.source, symmetric.fine.target)
     assert some
     for one in some:
         i, j = np.flatnonzero(one.source != match.source)
@@ -520,11 +520,11 @@ def test_limbs_of_one_side_are_exchanged_together_with_their_mirror_images(refle
     partner, match = reflected.reflected_extremities, ExtremityMatch(same, same)
     between = reflected.extremities.distances[:, reflected.extremities.points]
 
-    def exchanged_together(match, source):
-        return [one for one in exchanged_matches(match, source) if (one.source != match.source).sum() > 2]
+    def exchanged_together(match, source, target):
+        return [one for one in exchanged_matches(match, source, target) if (one.source != match.source).sum() > 2]
 
-    paired = (partner != same).sum() // 2
-    both = exchanged_together(match, reflected)
+    paired, bare = (partner != same).sum() // 2, replace(reflected, reflection_map=None)
+    both = exchanged_together(match, reflected, bare)
     assert len(both) == paired * (paired - 1) // 2 > 0
     for images in (one.source for one in both):
         limbs = np.flatnonzero(images != same)
@@ -533,9 +533,13 @@ def test_limbs_of_one_side_are_exchanged_together_with_their_mirror_images(refle
         assert np.array_equal(images[partner], partner[images])
         assert (between[limbs, images[limbs]] < between[limbs, partner[images[limbs]]]).all()
     assert len({tuple(one.source) for one in both}) == len(both)
-    assert not exchanged_together(match, replace(reflected, reflection_map=None))
+    # Of a target whose extremities have other numbers, the same limbs by its reflection alone.
+    others = np.roll(same, 1)
+    by_target = exchanged_together(ExtremityMatch(others, same), bare, reflected)
+    assert [one.source.tolist() for one in by_target] == [others[one.source].tolist() for one in both]
+    assert not exchanged_together(match, bare, bare)
     left = np.flatnonzero(partner > same)
-    assert not exchanged_together(ExtremityMatch(left, left), reflected)
+    assert not exchanged_together(ExtremityMatch(left, left), reflected, reflected)
 
 
 def test_only_the_limbs_are_exchanged(symmetric, exchanged):
@@ -559,12 +563,25 @@ def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
     assert wrong_area(mended, symmetric) < 0.03
 
 
-def test_two_pairs_of_exchanged_limbs_are_mended_one_after_the_other(symmetric, exchanged, monkeypatch):
+def test_pairs_of_exchanged_limbs_are_mended_one_after_the_other(symmetric, exchanged, monkeypatch):
     monkeypatch.setattr("kfmaps.matching.limb_exchange._mirrored_pairs", lambda *_: [])
     twice = max(exchange_limbs(exchanged, symmetric.fine), key=lambda one: wrong_area(one, symmetric))
     assert wrong_area(twice, symmetric) > wrong_area(exchanged, symmetric) + 0.05
     mended = compare_exchanged(twice, symmetric.fine, symmetric.proxies)[0]
     assert wrong_area(mended, symmetric) < 0.03
+
+
+def test_limbs_are_exchanged_as_long_as_the_score_rises(symmetric, exchanged, monkeypatch):
+    gains, begun = iter((1.0, 2.0, 3.0, 2.5)), []
+
+    def exchanged_once(one, _pair):
+        begun.append(one.score - exchanged.score)
+        better = exchanged.quality.descriptors - next(gains) / SCORE.w_descriptors
+        return [replace(exchanged, quality=replace(exchanged.quality, descriptors=better))]
+
+    monkeypatch.setattr("kfmaps.matching.limb_exchange.exchange_limbs", exchanged_once)
+    compare_exchanged(exchanged, symmetric.fine, symmetric.proxies)
+    assert begun == pytest.approx([0.0, 1.0, 2.0, 3.0])
 
 
 def test_exchanged_limbs_with_a_close_score_cast_a_doubt(symmetric, exchanged, monkeypatch):

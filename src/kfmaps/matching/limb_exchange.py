@@ -27,28 +27,24 @@ side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more, branches o
 def exchange_limbs(best: Candidate, pair: SamplePair) -> list[Candidate]:
     """Return the map with limbs of the source exchanged, one candidate for each of :func:`exchanged_matches`.
 
-    Samples of the target that are nearest to these extremities are mapped by the exchanged extremities, the others as
-    before. Then the map is refined with the exchanged extremities as evidence.
+    Samples go to those that are most similar by the exchanged extremities, and the map is refined from few functions on
+    with these as evidence.
     """
     match = match_of_map(best.points, pair.source, pair.target)
-    exchanged = [] if match is None else exchanged_matches(match, pair.source)
-    if match is None or not exchanged:
+    if match is None:
         return []
     size, functions = len(best.functional_map), pair.source.samples.basis.functions
-    nearest_extremity = pair.target.extremities.distances[match.target].argmin(axis=0)
     weights = distinct_weights(FINE_WEIGHTS[1:], pair)[0]
     starts = []
-    for other in exchanged:
+    for other in exchanged_matches(match, pair.source, pair.target):
         cost = extremity_cost(pair.source.extremities, pair.target.extremities, other, pair.descriptor_cost)
-        on_limb = (other.source != match.source)[nearest_extremity]
-        points = np.where(on_limb, cost.argmin(axis=1), best.points)
-        C = np.asarray(pair.solver(size) @ functions[points, :size], dtype=np.float64)
+        C = np.asarray(pair.solver(size) @ functions[cost.argmin(axis=1), :size], dtype=np.float64)
         starts.append(Start(f"{best.name}, limbs exchanged", C, best.uses_descriptors, weights, match=other))
-    half = max(size // 2, 2)
-    return refine_batch(starts, pair, (half, (half + size) // 2, size))
+    quarters = tuple(max(size * i // 4, 2) for i in (1, 2, 3, 4))
+    return refine_batch(starts, pair, quarters) if starts else []
 
 
-def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[ExtremityMatch]:
+def exchanged_matches(match: ExtremityMatch, source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
     """Return ``match`` with extremities of the source exchanged.
 
     They are two similar ones, or two of one side of a body and likewise their mirror images.
@@ -57,16 +53,22 @@ def exchanged_matches(match: ExtremityMatch, source: ShapeSamples) -> list[Extre
     pairs = sorted((difference[i, j], i, j) for i, j in combinations(range(len(match.source)), 2))
     most = 10  # pairs of limbs that are exchanged alone, the most similar
     alone = [((i, j),) for d, i, j in pairs[:most] if d <= _MAX_DIFFERENCE]
-    return [_exchanged(match, both) for both in (*alone, *_mirrored_pairs(match, source))]
+    return [_exchanged(match, both) for both in (*alone, *_mirrored_pairs(match, source, target))]
 
 
-def _mirrored_pairs(match: ExtremityMatch, source: ShapeSamples) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Return pairs of matched extremities of one side of a body, each with the pair of their mirror images."""
-    if source.reflected_extremities is None:
+def _mirrored_pairs(
+    match: ExtremityMatch, source: ShapeSamples, target: ShapeSamples
+) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """Return pairs of matched extremities of one side of a body, each with the pair of their mirror images.
+
+    The reflection of either shape tells them.
+    """
+    shape, chosen = (target, match.target) if source.reflected_extremities is None else (source, match.source)
+    if shape.reflected_extremities is None:
         return []
-    place = {extremity: i for i, extremity in enumerate(match.source.tolist())}
-    partner = [place.get(one, i) for i, one in enumerate(source.reflected_extremities[match.source].tolist())]
-    between = source.extremities.distances[:, source.extremities.points][np.ix_(match.source, match.source)]
+    place = {extremity: i for i, extremity in enumerate(chosen.tolist())}
+    partner = [place.get(one, i) for i, one in enumerate(shape.reflected_extremities[chosen].tolist())]
+    between = shape.extremities.distances[:, shape.extremities.points][np.ix_(chosen, chosen)]
     return [
         ((i, j), (partner[i], partner[j]))
         for i, j in combinations(range(len(partner)), 2)
@@ -92,9 +94,10 @@ def compare_exchanged(best: Candidate, pair: SamplePair, proxies: ProxyCache) ->
     def may_win(other: Candidate) -> bool:
         return other.score > (start.score if _are_alike(other, start, pair) else start.score - SCORE.max_behind)
 
-    found = by_score(exchange_limbs(start, pair))
-    if found and found[0].score > start.score:  # three legs, each taken for the next, need two exchanges
-        found += exchange_limbs(found[0], pair)
+    found, last = by_score(exchange_limbs(start, pair)), start
+    while found and found[0].score > last.score:  # three legs, each taken for the next, need two exchanges
+        last = found[0]
+        found = by_score([*found, *exchange_limbs(last, pair)])
     exchanged = [c for c in found if may_win(c)]
     registered = by_score(with_deformation_energy([start, *exchanged], proxies)) if exchanged else []
     if not registered:

@@ -38,7 +38,7 @@ from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import PartDetection, detect_part
-from kfmaps.matching.partial.match_partial import match_partial
+from kfmaps.matching.partial.match_partial import file_ratio, match_partial
 from kfmaps.matching.partial.place_part import GivenUp
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
@@ -116,13 +116,14 @@ def _match_detected(
         part = _match_clear_part(task, detection)
         return part or _more_probable(best, _match_as(task, "both", detection.reason))
     if has_search and _may_be_whole(detection):
-        best = _match_holed(task, which, detection, wholes)
+        part, best = _match_holed(task, which, detection, wholes)
     else:
         part, as_wholes = _match_part(task, which, detection.reason)
-        best = part if _fits(part) else _more_probable(part, wholes(as_wholes))
+        best = part if _fits(part) or _is_fragment(part, task) else _more_probable(part, wholes(as_wholes))
     if best.verdict == "sure" or best.confidence is None or detection.is_one_view or _is_whole(best, detection):
         return best
-    best = _compare_opposite(task, best, "target" if which == "source" else "source")
+    if not _is_smaller_in_files(part, task):
+        best = _compare_opposite(task, best, "target" if which == "source" else "source")
     if best.verdict == "sure" or not detection.both_open or tried == "both":
         return best
     return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
@@ -155,7 +156,7 @@ def _match_stated(
     detection = _detect_part(task)
     is_cut = not _may_be_whole(detection)
     is_part = detection.which == stated and (is_cut or stated == "both")
-    if is_part or (stated == "none" and not is_cut):
+    if is_part or (stated == "none" and not is_cut) or (detection.which == stated and _is_small_part(best)):
         return best
     if stated == "none":
         other = _match_detected(task, detection, lambda _: best)
@@ -169,6 +170,33 @@ def _match_stated(
 def _fits(part: Match | None) -> TypeGuard[Match]:
     """Return whether a part was placed and is not "unlikely"."""
     return part is not None and part.verdict != "unlikely"
+
+
+def _is_small_part(part: Match | None) -> bool:
+    """Return whether a part was placed, is not "unlikely", and is too small for a whole with holes."""
+    return _fits(part) and _share(part) < SCORE.part.min_whole_area
+
+
+def _is_smaller_in_files(part: Match | None, task: MatchTask) -> TypeGuard[Match]:
+    """Return whether a part lies at about the scale of the files, in which it is the smaller shape.
+
+    Both files are in one unit then, and the other shape is no part of it: a scan with its floor is larger than a body.
+    """
+    ratio, scale = file_ratio(*task.shapes("preserving")), part and part.partial.scale
+    if part is None or ratio is None or scale is None:
+        return False
+    ratio = ratio if part.partial.which == "target" else 1 / ratio
+    return ratio < 1 and abs(math.log(scale / ratio)) < SCORE.part.other_scale
+
+
+def _is_fragment(part: Match | None, task: MatchTask) -> TypeGuard[Match]:
+    """Return whether a part lies at the scale of the files, and has so little of the whole that it is none itself."""
+    return _is_smaller_in_files(part, task) and _share(part) < SCORE.part.max_fragment_area
+
+
+def _share(part: Match) -> float:
+    """Return the area of a placed part over that of the whole."""
+    return (part.partial.scale or 1.0) ** 2
 
 
 def _match_as(task: MatchTask, which: Literal["source", "target", "both"], reason: str) -> Match:
@@ -205,8 +233,8 @@ def _match_holed(
     which: Literal["source", "target"],
     detection: PartDetection,
     wholes: Callable[[MatchPart], Match],
-) -> Match:
-    """Return the match of a part and a whole, or that of ``wholes`` where the part is rather a whole with holes.
+) -> tuple[Match | None, Match]:
+    """Return the match of a part and a whole, if one was placed, and the better of it and that of ``wholes``.
 
     A body with holes is matched well either way, one of different proportions only as a whole. If little is missing the
     full search for a part comes last, since it takes longer than all else, and not at all where both are whole.
@@ -218,12 +246,13 @@ def _match_holed(
         part, as_wholes = _match_part(task, which, detection.reason, least, clear_area=SCORE.part.min_whole_area)
     except GivenUp:
         is_clear = False
-    if part is not None and part.verdict == "sure":
-        return part
+    if part is not None and (part.verdict == "sure" or _is_small_part(part)):
+        return part, part
     best = _more_probable(part, wholes(as_wholes))
     if is_clear or best.verdict == "sure" or _is_whole(best, detection):
-        return best
-    return _more_probable(_match_part(task, which, detection.reason)[0], best)
+        return part, best
+    part, _ = _match_part(task, which, detection.reason)
+    return part, _more_probable(part, best)
 
 
 def _match_part(

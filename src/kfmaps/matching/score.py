@@ -127,7 +127,10 @@ class PartScoring:
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
     min_whole_area: float = 0.7
-    """Share of the area of the whole from which a part that is not clear is matched as a whole with holes first."""
+    """Share of the area of the whole from which a part that is not clear is matched as a whole with holes first. One
+    with less is not matched as a whole unless it is "unlikely"."""
+    max_fragment_area: float = 0.5
+    """Share of the area below which an "unlikely" part at the scale of the files is not matched as a whole either."""
     whole_overlap: float = 0.95
     """Share of the area of both shapes in the overlap from which neither is a part."""
     max_landmark_error: float = 0.1

@@ -44,7 +44,7 @@ def match_partial(
     for shape in (source, target):
         if len(shape.mesh.faces) == 0:
             raise refuse(shape.name, "a surface with triangles", "a point cloud", "match it as a whole: partial 'none'")
-    ratio = None if source.extent is None or target.extent is None else target.extent / source.extent
+    ratio = file_ratio(source, target)
     is_target = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
     part, whole = (target, source) if is_target else (source, target)
     pairs = task.pair.clean_landmarks(task.landmarks)
@@ -95,6 +95,11 @@ def match_partial(
         ),
     )
     return match, bool(min(mass_p @ overlap.part, mass_w @ overlap.whole) > SCORE.part.whole_overlap)
+
+
+def file_ratio(source: Shape, target: Shape) -> float | None:
+    """Return √area of the target over that of the source in their files; ``None`` where a size is not known."""
+    return None if source.extent is None or target.extent is None else target.extent / source.extent
 
 
 def _place_by_landmarks(

@@ -167,10 +167,11 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
         scales = [scale for scale in scales if scale >= task.least_scale]
     supported: list[Placement] = []
     for some in ([ratio], scales) if ratio in scales[1:] else (scales,):
+        tried = [one.scale for one in supported]
         supported = try_scales(pair, some)
-        found = _clear_placements(pair, supported[0], task.calibration)
+        found = [] if supported[0].scale in tried else _clear_placements(pair, supported[0])
         if found:
-            return found
+            return _regrow_unsure(found, pair, task)
     if supported[0].scale ** 2 >= task.clear_area:
         raise GivenUp
     min_support = 0.9  # of a placement that may become the best, over that of the best supported one
@@ -185,11 +186,17 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     known = scales[0] if pair.fixed_scale and pair.both_partial else pair.small_scale
     found += [] if known is None else candidates_at_scale(pair, known)
     report(0.65)
-    return regrow_best(compare_alternatives(found, pair), pair)
+    return _regrow_unsure(compare_alternatives(found, pair), pair, task)
 
 
-def _clear_placements(pair: PartPair, placement: Placement, calibration: Calibration) -> list[PartCandidate]:
-    """Return a placement registered, with its alternatives; none unless it is clear and would be called "sure".
+def _regrow_unsure(order: list[PartCandidate], pair: PartPair, task: PartTask) -> list[PartCandidate]:
+    """Return ``order`` where its first candidate would be called "sure", else also what grows from it."""
+    is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=task.calibration) == "sure"
+    return order if is_sure else regrow_best(order, pair)
+
+
+def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidate]:
+    """Return a placement registered, with its alternatives; none unless it is clear.
 
     A score says little of a single limb that lies elsewhere. Two relaxations rarely agree on it, so another one has to
     confirm the placement. A small part fits in many places, and placements of two parts score less: neither is clear.
@@ -202,11 +209,8 @@ def _clear_placements(pair: PartPair, placement: Placement, calibration: Calibra
         return []
     other = fit_scale(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
     apart = pair.whole.distances[placement.placed.match, other.placed.match]
-    if float((apart < numbers.distinct_distance).mean()) < numbers.early_exit_agreement:
-        return []
-    order = compare_alternatives([found], pair)
-    is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=calibration) == "sure"
-    return order if is_sure else []
+    agrees = float((apart < numbers.distinct_distance).mean()) >= numbers.early_exit_agreement
+    return compare_alternatives([found], pair) if agrees else []
 
 
 def candidate_placements(
