@@ -2,12 +2,14 @@
 
     python benchmarks/automatic.py --data DIR [--sets FAUST_r,SHREC19_r,...] [--pairs 60] [--workers 2] [--json FILE]
     python benchmarks/automatic.py --data DIR --landmarks 0,1,2,3,5,10,25 [--wrong 0.2] [--pyfm]
+    python benchmarks/automatic.py --data DIR --cut [--half choice]
     python benchmarks/automatic.py --data DIR --time
 
 DIR holds folders in the layouts of docs/collections.md, and ``cross/cat_dog.txt``; without it only the package's own
 shapes are matched. What the settings were chosen on is left out: pairs of which both shapes are in the half named by
 :data:`CHOSEN_ON`. At the end stand, over all sets, how many maps were called what, and how often that was right.
-With ``--pyfm`` rows of pyFM with the same landmarks stand between, of which it needs one at least (by_pyfm.py).
+With ``--pyfm`` rows of pyFM with the same landmarks stand between, of which it needs one at least (by_pyfm.py). With
+``--cut`` the target is what lies above a random plane, 35 to 70 % of its vertices; ``--half choice`` takes the others.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ import argparse
 import json
 import time
 import warnings
+import zlib
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import permutations, product
@@ -53,6 +56,7 @@ class Job:
     landmarks: int = 0
     wrong: float = 0.0
     threads: int = 1
+    cut: bool = False
 
     def __str__(self) -> str:
         return f"{self.kind} {self.source} {self.target}"
@@ -127,10 +131,11 @@ def pairs_of(kind: str, data: Path | None, count: int) -> list[tuple[str, str]]:
     return [found[i] for i in np.sort(drawn)]
 
 
-def chosen_pairs(kind: str, data: Path, half: str, count: int, seed: int = 0) -> list[tuple[str, str]]:
+def chosen_pairs(kind: str, data: Path | None, half: str, count: int, seed: int = 0) -> list[tuple[str, str]]:
     """At most ``count`` pairs of a half, those of the choice half drawn with a ``seed``."""
     if half == "report":
         return pairs_of(kind, data, count)
+    assert data is not None
     found = [pair for pair in all_pairs(kind, data) if CHOSEN_ON[kind].issuperset(pair)]
     drawn = np.random.default_rng(seed).permutation(len(found))[:count]
     return [found[i] for i in np.sort(drawn)]
@@ -158,6 +163,17 @@ def chosen_jobs(options: argparse.Namespace, seed: int = 0) -> list[Job]:
     return [Job(data, s, *pair) for s in options.sets.split(",") for pair in chosen_pairs(s, data, half, count, seed)]
 
 
+def piece(job: Job, mesh: kfmaps.Mesh, true: np.ndarray) -> tuple[kfmaps.Mesh, np.ndarray, np.ndarray]:
+    """The largest piece of a target above a random plane, which of its ``true`` vertices it has, and their numbers."""
+    rng = np.random.default_rng(zlib.crc32(str(job).encode()))
+    height = mesh.vertices @ rng.normal(size=3)
+    part, kept = datasets.largest_piece(mesh, height > np.quantile(height, rng.uniform(0.3, 0.65)))
+    number = np.full(len(mesh.vertices), -1)
+    number[kept] = np.arange(len(kept))
+    has = number[true] >= 0
+    return part, has, number[true[has]]
+
+
 def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], count: int, wrong: float) -> np.ndarray:
     """``count`` true pairs spread over the source, a part ``wrong`` of them with another target."""
     _, rows = np.unique(true[0], return_index=True)
@@ -172,13 +188,17 @@ def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], 
 
 def judged(job: Job) -> dict:
     source, target, true_s, true_t = loaded(job)
+    if job.cut:
+        target, has, true_t = piece(job, target, true_t)
+        true_s = true_s[has]
     config = replace(kfmaps.Config(), threads=job.threads)
     start = time.process_time() if job.threads == 1 else time.perf_counter()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target"))]
     pairs = chosen_landmarks(shapes[0], (true_s, true_t), job.landmarks, job.wrong) if job.landmarks else None
     found = kfmaps.match(shapes[0], shapes[1], config, landmarks=pairs)
     end = time.process_time() if job.threads == 1 else time.perf_counter()
-    errors = kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
+    points = found.target_to_source[true_t]
+    errors = kfmaps.geodesic_errors(source, points[points >= 0], true_s[points >= 0])
     return {
         "set": job.kind,
         "pair": f"{job.source} {job.target}",
@@ -241,6 +261,8 @@ def main() -> None:
     parser.add_argument("--landmarks", default="0", help="how many, several numbers for a curve")
     parser.add_argument("--wrong", type=float, default=0.0, help="part of the landmarks that are wrong")
     parser.add_argument("--pyfm", action="store_true", help="pyFM with the same landmarks too")
+    parser.add_argument("--cut", action="store_true", help="the targets are cut by planes")
+    parser.add_argument("--half", choices=("choice", "report"), default="report")
     parser.add_argument("--workers", type=int, default=2, help="pairs at once, each with one thread")
     parser.add_argument("--time", action="store_true", help="only time five pairs of FAUST_r, one after the other")
     parser.add_argument("--json", type=Path)
@@ -260,8 +282,8 @@ def main() -> None:
         for kind, count in product(arguments.sets.split(","), counts):
             if kind != "own" and arguments.data is None:
                 continue
-            pairs = pairs_of(kind, arguments.data, arguments.pairs)
-            jobs = [Job(arguments.data, kind, *pair, count, arguments.wrong) for pair in pairs]
+            pairs = chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs)
+            jobs = [Job(arguments.data, kind, *pair, count, arguments.wrong, cut=arguments.cut) for pair in pairs]
             rows = list(pool.map(judged, jobs))
             report(kind + (f", {count} landmarks" if len(counts) > 1 or count else ""), rows)
             everything += rows

@@ -605,6 +605,26 @@ def test_a_search_for_a_large_part_is_given_up_where_all_likely_placements_are_s
         place_part.place_part(place_part.PartTask(triangle, triangle, Partial(), least_scale=0.5))
 
 
+@pytest.mark.parametrize(("best", "tried"), [(0.9, [0.9]), (0.4, [0.9, 0.4])])
+def test_the_placement_at_the_scale_of_the_files_is_not_tried_again(
+    monkeypatch: pytest.MonkeyPatch, best: float, tried: list[float]
+) -> None:
+    """Where it is the best supported one of all scales, too."""
+
+    def placed(scale: float) -> Any:
+        return SimpleNamespace(scale=scale, placed=SimpleNamespace(support=1.0 + (scale == best)))
+
+    seen: list[float] = []
+    monkeypatch.setattr(
+        place_part, "try_scales", lambda _, scales: [placed(best if best in scales or len(scales) > 1 else scales[0])]
+    )
+    monkeypatch.setattr(place_part, "_clear_placements", lambda _, one: seen.append(one.scale) or [])
+    triangle = Mesh(np.eye(3), np.array([[0, 1, 2]]))
+    with pytest.raises(place_part.GivenUp):
+        place_part.place_part(place_part.PartTask(triangle, triangle, Partial(), 0.9, clear_area=0.0))
+    assert seen == tried
+
+
 @pytest.mark.parametrize(
     ("score", "scale", "both", "agree", "ahead", "clear", "grows"),
     [
