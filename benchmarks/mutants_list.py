@@ -1161,7 +1161,6 @@ MUTANTS = tuple(
             "test_parts_alternatives -k search_ends",
         ),
         ("[] if supported[0].scale in tried else _clear", "_clear", "test_parts_alternatives -k not_tried_again"),
-        ("seeds))[:n_registered]", "seeds))", "test_parts_alternatives -k three_best"),
         ('if part is not None and part.verdict == "sure" else None', "", "test_parts -k clear_part"),
         ("alone = min(fits, numbers.max_fit)", "alone = fits", "test_parts -k likely_at_most"),
         ("detection.more_open is None or _may_be_whole(detection)", "False", "test_parts -k clear_part"),

@@ -221,7 +221,7 @@ def test_what_regrowth_gains_too_little_or_loses_much_is_left(half, monkeypatch)
         (19.99 - limit, 21.0, 0.0, False),
         (20.01 - limit, 21.0, 0.0, True),
     ):
-        monkeypatch.setattr(candidates_module, "_grow", lambda *_: stub(0.0, 0.0))
+        monkeypatch.setattr(candidates_module, "_grow", lambda *_: None)
         monkeypatch.setattr(candidates_module, "make_candidate", lambda *_, _score=score: stub(_score, 0.0))
         monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_, _to=(refined, where): stub(*_to))
         order: Any = candidates_module.regrow_best([best], half[0])
@@ -229,17 +229,9 @@ def test_what_regrowth_gains_too_little_or_loses_much_is_left(half, monkeypatch)
         assert len(order) == 1 + first
 
 
-def test_of_what_grows_the_three_best_placements_are_registered(half, monkeypatch):
-    grown, registered = iter((1.0, 7.0, 2.0, 8.0, 3.0, 9.0, 4.0, 5.0)), []
-    monkeypatch.setattr(candidates_module, "_grow", lambda *_: stub(next(grown), 0.0))
-    monkeypatch.setattr(candidates_module, "make_candidate", lambda one, _: registered.append(one.score) or one)
-    candidates_module.regrow_best([stub(20.0, 0.0)], half[0])
-    assert registered == [9.0, 8.0, 7.0]
-
-
 def test_of_the_scan_of_one_camera_the_second_candidate_grows_too(half, monkeypatch):
     order, grown = [stub(20.0, 0.0), stub(19.9, 0.0), stub(19.0, 1.0), stub(18.0, 2.0)], []
-    monkeypatch.setattr(candidates_module, "_grow", lambda one, *_: grown.append(one) or one)
+    monkeypatch.setattr(candidates_module, "_grow", lambda one, *_: grown.append(one))
     monkeypatch.setattr(candidates_module, "make_candidate", lambda *_: stub(19.5, 0.0))
     monkeypatch.setattr(candidates_module, "_refine_candidate", lambda *_: stub(21.0, 1.0))
     monkeypatch.setattr(candidates_module, "_place_symmetrically", lambda *_: [])
@@ -253,10 +245,8 @@ def test_of_the_scan_of_one_camera_the_second_candidate_grows_too(half, monkeypa
 @pytest.mark.parametrize(("is_one_view", "grown", "expected"), [(True, 21.0, 2), (True, 19.0, 0), (False, 21.0, 0)])
 def test_a_scan_of_one_camera_that_has_grown_is_turned_once_more(is_one_view, grown, expected, half, monkeypatch):
     turned = []
-    monkeypatch.setattr(candidates_module, "_grow", lambda *_: stub(0.0, 0.0))
-    monkeypatch.setattr(
-        candidates_module, "make_candidate", lambda placement, _: stub(18.5, 2.0 if placement in ("a", "b") else 0.0)
-    )
+    monkeypatch.setattr(candidates_module, "_grow", lambda *_: None)
+    monkeypatch.setattr(candidates_module, "make_candidate", lambda placement, _: stub(18.5, 2.0 if placement else 0.0))
     monkeypatch.setattr(candidates_module, "refine_placement", lambda _, placement: placement)
     monkeypatch.setattr(
         candidates_module, "_refine_candidate", lambda one, _: stub(grown if one.points[0, 0] == 0 else 20.5, 0.0)

@@ -152,11 +152,10 @@ def regrow_best(order: list[PartCandidate], pair: PartPair) -> list[PartCandidat
     is placed by its distances from there. Of the scan of one camera the second distinct candidate grows too, and a best
     one that has grown is compared with its images by near-symmetries.
     """
-    n_regions, n_registered = 8, 3  # around the first samples, which are far from each other; the best, by their scores
+    n_regions = 8  # around the first samples, which are far from each other
     seeds, found = range(min(n_regions, len(pair.part.samples))), list(order)
     for one in select_distinct(order, _differ, 2 if pair.is_one_view else 1):
-        likely = by_score(parallel(lambda seed, one=one: _grow(one, seed, pair), seeds))[:n_registered]
-        grown = by_score(parallel(lambda placement: make_candidate(placement, pair), likely))[0]
+        grown = by_score(parallel(lambda seed, one=one: make_candidate(_grow(one, seed, pair), pair), seeds))[0]
         if grown.score < order[0].score - SCORE.part.hopeless_margin:
             continue
         grown = _refine_candidate(grown, pair)
