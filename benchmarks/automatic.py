@@ -28,6 +28,7 @@ import numpy as np
 
 import kfmaps
 from kfmaps import datasets
+from kfmaps.geometry.connectivity import renumbering
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 
 CHOSEN_ON = {
@@ -168,10 +169,8 @@ def piece(job: Job, mesh: kfmaps.Mesh, true: np.ndarray) -> tuple[kfmaps.Mesh, n
     rng = np.random.default_rng(zlib.crc32(str(job).encode()))
     height = mesh.vertices @ rng.normal(size=3)
     part, kept = datasets.largest_piece(mesh, height > np.quantile(height, rng.uniform(0.3, 0.65)))
-    number = np.full(len(mesh.vertices), -1)
-    number[kept] = np.arange(len(kept))
-    has = number[true] >= 0
-    return part, has, number[true[has]]
+    number = renumbering(kept, len(mesh.vertices))[true]
+    return part, number >= 0, number[number >= 0]
 
 
 def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], count: int, wrong: float) -> np.ndarray:

@@ -548,6 +548,14 @@ def test_only_the_limbs_are_exchanged(symmetric, exchanged):
     assert exchanged.score < symmetric.right.score
 
 
+def test_exchanged_maps_are_refined_from_a_quarter_of_the_functions_on(symmetric, monkeypatch):
+    """From half of them on they stay torn."""
+    seen, size = [], len(symmetric.right.functional_map)
+    monkeypatch.setattr("kfmaps.matching.limb_exchange.refine_batch", lambda _, __, sizes: seen.append(sizes) or [])
+    exchange_limbs(symmetric.right, symmetric.fine)
+    assert seen == [(size // 4, size // 2, 3 * size // 4, size)]
+
+
 def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
     monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", replace(SCORE, max_behind=99.0))
     for begun in (symmetric.right, exchanged):

@@ -155,8 +155,8 @@ def _match_stated(
         return best
     detection = _detect_part(task)
     is_cut = not _may_be_whole(detection)
-    is_part = detection.which == stated and (is_cut or stated == "both")
-    if is_part or (stated == "none" and not is_cut) or (detection.which == stated and _is_small_part(best)):
+    is_part = detection.which == stated and (is_cut or stated == "both" or _is_small_part(best))
+    if is_part or (stated == "none" and not is_cut):
         return best
     if stated == "none":
         other = _match_detected(task, detection, lambda _: best)
