@@ -8,12 +8,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from scipy.spatial.transform import Rotation
 
 from conftest import fibonacci_sphere
 from kfmaps import viz
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.viz.camera import fit_rotation
+from kfmaps.viz.camera import _are_unlike, fit_rotation
 from kfmaps.viz.figures import _oklab_to_rgb, make_transparent
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
@@ -250,6 +251,29 @@ def test_the_target_is_seen_from_the_same_side() -> None:
     assert np.abs(a - b).mean() < 0.01
     mirrored = Mesh(source.vertices * [-1, 1, 1], source.faces)
     assert np.linalg.det(viz.following_view(view, source, mirrored, same).axes()) > 0
+
+
+def test_a_pose_is_seen_from_the_side_that_the_map_says() -> None:
+    """An arc and the arc bent the other way lie closer to each other upside down."""
+    rng = np.random.default_rng(0)
+    x, y, z = rng.uniform(-1, 1, 500), rng.uniform(-0.3, 0.3, 500), rng.uniform(-0.05, 0.05, 500)
+    turn = Rotation.from_rotvec([0, 0, np.deg2rad(60)]).as_matrix()
+    source, target = (Mesh(np.stack([x, y + bend * x**2, z], 1), np.zeros((0, 3))) for bend in (0.3, -0.3))
+    view = viz.view_from((0, 0, 1))
+    seen = viz.following_view(view, source, Mesh(target.vertices @ turn.T, target.faces), np.arange(500))
+    assert seen.towards[2] > 0.9
+    assert seen.up @ turn @ view.up > 0.9
+
+
+def test_a_shape_of_another_kind_is_seen_from_the_side_that_the_map_says() -> None:
+    places = (0, 0, 0), (0, 1, 0.4), (0, 0.5, 0)
+    person = _body(*zip(((0.4, 0.8, 0.25), (0.1, 0.1, 0.4), (0.9, 0.1, 0.1)), places, strict=True))
+    other = _body(*zip(((0.4, 0.8, 0.25), (0.2, 0.2, 0.5), (0.9, 0.05, 0.05)), places, strict=True))
+    backwards = Mesh(other.vertices * [-1, 1, -1], other.faces)
+    view, same = viz.automatic_view(person), np.arange(len(person.vertices))
+    assert _are_unlike(person, backwards, same)
+    seen = viz.following_view(view, person, backwards, same)
+    np.testing.assert_allclose(seen.axes(), view.axes() * [-1, 1, -1], atol=0.01)
 
 
 def _body(*parts: tuple[tuple[float, ...], tuple[float, ...]]) -> Mesh:

@@ -20,11 +20,11 @@ _Z_UP_GAIN = 1.4  # ratio of stances on z and on y from which z is up
 _YAW, _PITCH = 20.0, 10.0  # degrees by which the automatic view is turned aside and lifted, so that depth shows
 _SAME_VIEW = 45.0  # degrees that a target may be rotated against the source and still be seen from the same side
 
-_MIN_CORRELATION = 0.6
-"""Correlation of the rotated source with the target that a rotation must have; poses of one shape have 0.75."""
+_MIN_CORRELATION = 0.4
+"""Correlation of rotated source and target from which a map is trusted; right maps of bodies have at least 0.47."""
 _MAX_MISFIT_RATIO = 0.75
-"""Largest ratio of the misfits of a rotated shape and of the shapes as they lie. Of 182 ordered pairs of scanned people
-in 14 poses who all face one way, 3 % have a smaller ratio when one is rotated by half a turn."""
+"""Largest ratio of the misfits of a rotated shape and of the shapes as they lie, where no map is trusted. Of 182 pairs
+of scanned people in 14 poses who all face one way, 3 % have a smaller ratio when one is rotated by half a turn."""
 _MAX_DISTORTION = 0.45
 """Typical change of area under a map, as a power of two, above which the shapes are of different kinds. Poses of one
 body have up to 0.42, a cat and a dog 0.49, a gorilla and a woman 0.54, a man and a cat 0.64."""
@@ -124,8 +124,7 @@ def following_view(source_view: View, source: Mesh, target: Mesh, target_to_sour
     """Return the view that shows the target from the side of the body from which ``source_view`` shows the source.
 
     ``target_to_source (n_t,)`` is the map, where one is known. The view is the same unless the shapes are rotated
-    against each other (:func:`rotation_between`); then the camera rotates with them. So the picture shows whether a map
-    confuses back and front.
+    against each other (:func:`rotation_between`); then the camera rotates with them.
     """
     rotation = rotation_between(source, target, target_to_source)
     return source_view if rotation is None else _rotate_view(source_view, rotation)
@@ -162,34 +161,39 @@ def fit_rotation(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, fl
 def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> np.ndarray | None:
     """Return the rotation (3, 3) of the target against the source; ``None`` where both lie alike.
 
-    The map proposes a rotation, or the principal axes where the map has too little correlation. Half turns about each
-    principal axis propose three more, since the map may confuse back and front. The one with the smallest distances
-    between the shapes is taken, where they are much smaller than without a rotation, since poses differ too. Of parts
-    only what has a counterpart is compared. Shapes of different kinds, such as a man and a cat, are each seen upright
-    and from their own broad side instead.
+    The map decides, unless the shapes lie closer to each other without its rotation: then it confuses back and front.
+    Where there is no map, or one with too little correlation, the principal axes and half turns about them propose
+    four rotations, and the one with the smallest distances between the shapes is taken, where they are much smaller
+    than without, since poses differ too. Of parts only what has a counterpart is compared. Shapes of different kinds,
+    such as a man and a cat, are each seen upright and onto their own broad side, from where the map says.
     """
-    proposal, correlation, a, b = np.eye(3), 0.0, source.vertices, target.vertices
+    a, b, correlation, max_ratio = source.vertices, target.vertices, -1.0, _MAX_MISFIT_RATIO
+    rotations: list[np.ndarray] = []
     if target_to_source is not None:
         target_to_source = np.asarray(target_to_source)
         matched = target_to_source >= 0
         if matched.any():
             ends = a[target_to_source[matched]], b[matched]
-            proposal, correlation = fit_rotation(*ends)
+            rotation, correlation = fit_rotation(*ends)
+            rotations = [rotation]
             a, b = (a, b) if matched.all() and _covers(ends[0], a) else ends
+    if correlation >= _MIN_CORRELATION:
+        max_ratio = 1.0
+        if _are_unlike(source, target, np.asarray(target_to_source)):
+            frames = broad_side(source).axes(), broad_side(target).axes()
+            upright = [frames[1].T @ np.diag([sign, 1, sign]) @ frames[0] for sign in (1, -1)]
+            rotation = max(upright, key=lambda one: float(np.sum(one * rotations[0])))
+            return rotation if _is_turned(rotation) else None
     a, b = _standard(a), _standard(b)
-    axes = np.linalg.eigh(a.T @ a)[1]
-    half_turns = [np.eye(3), *(Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)]
-    if correlation >= _MIN_CORRELATION and _are_unlike(source, target, np.asarray(target_to_source)):
-        rotation = broad_side(target).axes().T @ broad_side(source).axes()
-        return rotation if _is_turned(rotation) else None
     if correlation < _MIN_CORRELATION:
-        target_axes = np.linalg.eigh(b.T @ b)[1]
+        axes, target_axes = (np.linalg.eigh(points.T @ points)[1] for points in (a, b))
         proposal = target_axes @ np.diag([1, 1, np.sign(np.linalg.det(target_axes @ axes.T))]) @ axes.T
-    rotations = [proposal @ half for half in half_turns]
+        half_turns = (Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)
+        rotations = [proposal, *(proposal @ half for half in half_turns)]
     samples_a, samples_b = (points[:: max(1, len(points) // _N_SAMPLES)] for points in (a, b))
     misfits = [_misfit(samples_a @ rotation.T, samples_b) for rotation in rotations]
     best = int(np.argmin(misfits))
-    is_better = misfits[best] < _MAX_MISFIT_RATIO * _misfit(samples_a, samples_b)
+    is_better = misfits[best] < max_ratio * _misfit(samples_a, samples_b)
     return rotations[best] if is_better and _is_turned(rotations[best]) else None
 
 

@@ -60,8 +60,7 @@ def verdict_record(
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, object]:
     """Return the source's camera axes, and the rotation of the target against the source.
 
-    The shapes decide the rotation (:func:`~kfmaps.viz.camera.rotation_between`), so that both are seen from the same
-    side of the body even where the map is wrong.
+    So both are seen from the same side of the body (:func:`~kfmaps.viz.camera.rotation_between`).
     """
     rotation = rotation_between(source, target, target_to_source)
     return {"frame": broad_side(source).axes().ravel(), "turn": (np.eye(3) if rotation is None else rotation).ravel()}
