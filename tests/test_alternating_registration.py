@@ -603,7 +603,7 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     mended = replace(deformed, name="mended", deformation_energy=1.5 * energy)
     assert is_close_but_deformed(deformed, best)
     assert not is_close_but_deformed(worse, best)
-    assert is_close_but_deformed(worse, best, SCORE.turned_margin)
+    assert is_close_but_deformed(worse, best, SCORE.rotation_margin)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=1.5 * energy), best)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=None), best)
     state = SearchState(
@@ -655,5 +655,5 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right"]
     unchanged = replace(state, ranked=[best, worse])
     assert search_module._repair_rivals(unchanged) is unchanged
-    monkeypatch.setattr(SamplePair, "margin_factor", SCORE.turned_margin)
+    monkeypatch.setattr(SamplePair, "margin_factor", SCORE.rotation_margin)
     assert [c.name for c in search_module._repair_rivals(unchanged).ranked] == ["right"]

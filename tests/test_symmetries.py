@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 from conftest import NO_LANDMARKS, SMALL
-from kfmaps import Mesh
+from kfmaps import Config, Mesh
 from kfmaps.datasets import posed_pair, symmetric_creature, two_poses
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Body, Limb
@@ -45,6 +45,7 @@ from kfmaps.matching.self_maps import (
     find_self_maps,
     self_images,
     self_maps,
+    with_self_maps,
 )
 from kfmaps.shape import prepare
 
@@ -94,6 +95,7 @@ def test_the_reflection_takes_a_point_to_its_mirror_image_and_back(reflected):
     assert 2 <= (partner != np.arange(len(partner))).sum() < len(partner)
     assert mirror_samples(reflected).reflection == pytest.approx(there)
     assert replace(reflected, reflection_map=None).reflection is None
+    assert not reflected.has_rotation
 
 
 def test_extremities_alone_find_a_reflection_unless_functions_are_few(on):
@@ -336,6 +338,7 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
 
     assert min(turns()) < 0.05
     assert find_reflection(of, find_self_maps(of, 60)) is None  # one of two
+    assert with_self_maps(of).has_rotation
     some = np.arange(0, len(table.mesh.vertices), 3)
     positions = table.mesh.vertices[some]
     images = [np.linalg.norm(positions[at] - positions * [-1, 1, -1], axis=1).mean() for at in self_images(table, some)]
@@ -343,6 +346,44 @@ def test_a_table_is_turned_onto_itself_by_its_extremities(monkeypatch):
     assert min(images) < 0.05
     monkeypatch.setattr(self_maps_module, "_keeps_shot", lambda quality, _shape: quality.orientation < 0.5)
     assert not turns()
+
+
+def test_a_flat_candelabra_is_rotated_though_that_hardly_differs_from_its_reflection():
+    limbs = [Limb("trunk", None, ((0, 0, 0, 0.2), (0, 0.2, 0, 0.1), (0, 0.8, 0, 0.08), (0, 1.5, 0, 0.06)))]
+    for x in (-1, 1):
+        inner = ((0, 0.7, 0, 0.07), (0.3 * x, 0.8, 0, 0.055), (0.33 * x, 1.3, 0, 0.05))
+        outer = ((0, 0.45, 0, 0.07), (0.55 * x, 0.55, 0, 0.055), (0.65 * x, 1.3, 0, 0.05))
+        limbs += [Limb(f"inner {x}", "trunk", inner), Limb(f"outer {x}", "trunk", outer)]
+    body = Body(tuple(limbs))
+    mesh = Mesh(*closed_mesh(body, body.box(), 1500, np.random.default_rng(0)))
+    of = with_self_maps(sample_for_scoring(prepare(mesh, Config())))
+    few, found = subsample(of, 400), {}
+    for C in of.self_maps:
+        orientation = map_quality(C, few, few).orientation
+        if abs(orientation) > 0.9:
+            found[orientation > 0] = few.positions[images_of(C, few)]
+    assert np.linalg.norm(found[True] - found[False], axis=1).mean() < self_maps_module._MIN_DIFFERENCE
+    assert of.has_rotation
+    assert of.reflection_map is None  # one of two
+
+
+def test_a_rotation_moves_the_whole_shape_and_keeps_all(monkeypatch):
+    of = subsample(sample_for_scoring(prepare(Mesh(*table_mesh()), SMALL)), 400)
+    qualities = [(C, map_quality(C, of, of)) for C in find_self_maps(of, 60)]
+    S, good = next((C, quality) for C, quality in qualities if quality.orientation > 0.9)
+
+    def is_rotation(C=S, **changes):
+        monkeypatch.setattr(self_maps_module, "map_quality", lambda *_: replace(good, **changes))
+        return self_maps_module._is_rotation(C, of)
+
+    lost = good.score - self_maps_module._MIN_ROTATION_SCORE
+    assert is_rotation(coverage=good.coverage - lost + 0.1)
+    assert not is_rotation(coverage=good.coverage - lost - 0.1)
+    assert not is_rotation(C=np.eye(40))
+    assert not is_rotation(orientation=0.4)
+    assert not is_rotation(distortion=1.01 * self_maps_module._MAX_ROTATION_DISTORTION)
+    monkeypatch.setattr(self_maps_module, "_MIN_ROTATION", 0.9)
+    assert not is_rotation()
 
 
 def test_what_is_seen_from_the_front_is_turned_to_the_back():
@@ -448,17 +489,22 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     best = replace(best, deformation_energy=0.01, strain=-0.1)
     usual = np.exp(-3.6 - 0.233 * best.quality.score)
     bends_less, bends_more = (replace(best, deformation_energy=usual * x, strain=0.1) for x in (0.99, 1.01))
-    assert _margin(best, bends_less) == 0.0
-    assert _margin(best, bends_more) == pytest.approx(best.score - bends_more.score) != 0.0
+    assert _margin(best, bends_less, False) == 0.0
+    assert _margin(best, bends_more, False) == pytest.approx(best.score - bends_more.score) != 0.0
     worse = replace(bends_less, quality=replace(best.quality, coverage=best.quality.coverage - 0.31))
-    assert _margin(best, worse) == pytest.approx(best.score - worse.score)
+    assert _margin(best, worse, False) == pytest.approx(best.score - worse.score)
     # Landmarks tell a shape from its turned image: those that are missed count as in the score.
     met, missed = (np.full(3, error) for error in (0.0, SCORE.max_landmark_error / 2))
     led, turned = replace(best, landmark_errors=met), replace(bends_less, landmark_errors=missed)
-    assert _margin(led, turned) == pytest.approx(1.5 * SCORE.w_landmark)
-    assert _margin(turned, replace(led, deformation_energy=usual * 0.99)) == pytest.approx(-1.5 * SCORE.w_landmark)
+    assert _margin(led, turned, False) == pytest.approx(1.5 * SCORE.w_landmark)
+    assert _margin(turned, replace(led, deformation_energy=usual * 0.99), False) == pytest.approx(
+        -1.5 * SCORE.w_landmark
+    )
+    # A turn that keeps a shape may deform one pose less than the right map, so no such energy counts.
+    assert _margin(best, bends_more, True) == 0.0
+    assert _margin(best, worse, True) == pytest.approx(0.31 * SCORE.w_coverage)
     unknown = replace(best, deformation_energy=None, strain=None)
-    assert _margin(best, unknown) == best.score - unknown.score
+    assert _margin(best, unknown, False) == best.score - unknown.score
 
 
 def test_a_margin_counts_less_between_shapes_that_a_turn_may_keep(unmarked):
@@ -468,17 +514,20 @@ def test_a_margin_counts_less_between_shapes_that_a_turn_may_keep(unmarked):
     some, none = np.eye(20)[None], np.zeros((0, 20, 20))
     reflection = np.eye(20)
 
-    def margin(source, target):
+    def margin(source, target, rotated=(False, False)):
         sides = (
-            replace(side, self_maps=maps, reflection_map=C)
-            for side, (maps, C) in zip((fine.source, fine.target), (source, target), strict=True)
+            replace(side, self_maps=maps, reflection_map=C, has_rotation=turn)
+            for side, (maps, C), turn in zip((fine.source, fine.target), (source, target), rotated, strict=True)
         )
         pair = replace(fine, **dict(zip(("source", "target"), sides, strict=True)))
         return calibrated_evidence(replace(state, samples=replace(state.samples, fine=pair)), best, [rival])[1]
 
     whole = best.score - rival.score
     assert whole > 0
-    assert margin((some, None), (some, None)) == pytest.approx(SCORE.turned_margin * whole)
+    assert margin((some, None), (some, None)) == pytest.approx(SCORE.rotation_margin * whole)
+    for rotated in ((True, False), (False, True)):
+        assert margin((some, reflection), (some, None), rotated) == pytest.approx(SCORE.rotation_margin * whole)
+        assert margin((some, reflection), (none, None), rotated) == pytest.approx(whole)
     for sides in (
         ((some, reflection), (some, None)),
         ((some, None), (some, reflection)),

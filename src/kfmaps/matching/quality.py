@@ -68,6 +68,7 @@ class ShapeSamples:
     self_maps: np.ndarray | None = None
     # (k, k): the map to its own mirror image (:func:`kfmaps.matching.self_maps.find_reflection`), where there is one.
     reflection_map: np.ndarray | None = None
+    has_rotation: bool = False  # whether a self-map rotates the whole shape, as half a turn does a table
 
     @cached_property
     def functions(self) -> np.ndarray:

@@ -108,7 +108,8 @@ def calibrated_evidence(
 
     ``rest``: its alternatives.
     """
-    margins = [*(margin for _, margin in _close_doubts(state)), *(_margin(best, other) for other in rest)]
+    has_rotation = state.samples.fine.has_rotation
+    margins = [*(margin for _, margin in _close_doubts(state)), *(_margin(best, other, has_rotation) for other in rest)]
     if not state.samples.fine.are_surfaces and (~state.rejected).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
     margin = state.samples.fine.margin_factor * max(min(margins, default=np.inf), 0.0)
@@ -121,15 +122,16 @@ def _close_doubts(state: SearchState) -> list[tuple[Candidate, float]]:
     return [(c, margin) for c, margin in state.doubts if margin < SCORE.shot_margin]
 
 
-def _margin(best: Candidate, other: Candidate) -> float:
+def _margin(best: Candidate, other: Candidate, has_rotation: bool) -> float:
     """Return the margin of ``best`` over another candidate, as the calibration takes it.
 
     A candidate that preserves distances and descriptors as well, and deforms the shape no more than right maps do, is
     the best map after a symmetry of the shape. Which of the two deforms the shape less depends on the poses alone, so
-    their deformation energies are left out; landmarks still tell them apart.
+    their deformation energies are left out, as wherever a rotation keeps a shape (``has_rotation``); landmarks still
+    tell them apart.
     """
     margin = best.quality.score - other.quality.score
-    if margin < SCORE.clear_margin and other.excess_deformation < 0.0:
+    if has_rotation or (margin < SCORE.clear_margin and other.excess_deformation < 0.0):
         return margin + landmark_cost(other.landmark_errors) - landmark_cost(best.landmark_errors)
     return best.score - other.score
 

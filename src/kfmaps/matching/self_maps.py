@@ -51,6 +51,8 @@ _COARSE_FUNCTIONS, _FINE_FUNCTIONS = 14, 40
 """Functions of self-maps when they are chosen, and in the end."""
 _MIN_DIFFERENCE = 0.08  # mean distance, in √area, between the images of two self-maps
 _MIN_DISPLACEMENT = 0.1  # mean distance, in √area, by which a self-map must move points; less is the identity
+_MIN_ROTATION = 0.2  # the same of a self-map that rotates the whole shape, and not a limb about its axis
+_MAX_ROTATION_DISTORTION, _MIN_ROTATION_SCORE = 0.07, -3.4  # of such a self-map; one of a person has 0.057 and -3.5
 
 
 def self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
@@ -64,12 +66,26 @@ def self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
 
 
 def with_self_maps(shape: ShapeSamples) -> ShapeSamples:
-    """Return samples with the self-maps and the reflection, which are found on the coarse ones among them."""
+    """Return samples with the self-maps and the reflection, which are found on the coarse ones among them.
+
+    A shape that a rotation keeps, as half a turn does a table, has no single reflection.
+    """
     coarse = subsample(shape, COARSE_SAMPLES)
     functions = coarse.samples.basis.functions.shape[1]
     maps, k = find_self_maps(coarse, functions), _size(coarse, functions)
     self_maps = np.array(maps, dtype=np.float64).reshape(len(maps), k, k)
-    return replace(shape, self_maps=self_maps, reflection_map=find_reflection(coarse, maps))
+    has_rotation = any(_is_rotation(C, coarse) for C in maps)
+    reflection = None if has_rotation else find_reflection(coarse, maps)
+    return replace(shape, self_maps=self_maps, reflection_map=reflection, has_rotation=has_rotation)
+
+
+def _is_rotation(C: np.ndarray, shape: ShapeSamples) -> bool:
+    """Return whether a self-map rotates the whole shape, and keeps distances, orientation and descriptors."""
+    own = shape.functions[:, : len(C)]
+    images = nearest(own, own @ C.T)
+    quality, moved = map_quality(C, shape, shape, images), _distance(shape.positions[images], shape.positions)
+    is_near_isometric = quality.orientation > 0.5 and quality.distortion <= _MAX_ROTATION_DISTORTION
+    return is_near_isometric and quality.score >= _MIN_ROTATION_SCORE and moved > _MIN_ROTATION
 
 
 def self_images(shape: Shape, vertices: np.ndarray, rng: int = 0, turned: bool = False) -> np.ndarray:
@@ -161,17 +177,19 @@ def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
         # Most return to the identity, which needs no more refinement.
         likely = np.flatnonzero((changes < max_change) & (displacements > _MIN_DISPLACEMENT))
         kept += _least_distorted(starts[likely], pair, kept, stop)
-    kept += _least_distorted(_from_extremities(pair, min(EXTREMITY_FUNCTIONS, stop)), pair, kept, stop, guided=True)
+    starts = _from_extremities(pair, min(EXTREMITY_FUNCTIONS, stop), n_compared=100, n_tried=8)
+    known = [(C, images) for C, images in kept if map_quality(C, shape, shape).orientation > 0.5]
+    kept += _least_distorted(starts, pair, known, stop, guided=True)
     return [C for C, _ in kept]
 
 
-def _from_extremities(pair: SamplePair, size: int) -> np.ndarray:
+def _from_extremities(pair: SamplePair, size: int, n_compared: int = 50, n_tried: int = 5) -> np.ndarray:
     """Return maps ``(m, size, size)`` of a shape that take extremities to others like them.
 
-    ``pair``: the shape with itself, or with its mirror image.
+    ``pair``: the shape with itself, or with its mirror image; ``n_tried``: matches that contradict each other, first of
+    all the identity.
     """
-    likely = match_extremities(pair.source, pair.target, pair.descriptor_cost, n_compared=50)
-    n_tried = 5  # matches that contradict each other, first of all the identity
+    likely = match_extremities(pair.source, pair.target, pair.descriptor_cost, n_compared)
     tried = select_distinct(likely, ExtremityMatch.contradicts, n_tried)
     return np.array([paired_map(match, pair, size) for match in tried]).reshape(len(tried), size, size)
 
