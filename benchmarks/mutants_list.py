@@ -1262,7 +1262,8 @@ MUTANTS = tuple(
             "test_symmetries -k keeps_all",
         ),
         ("quality.distortion <= _MAX_ROTATION_DISTORTION", "True", "test_symmetries -k keeps_all"),
-        ("quality.score >= _MIN_ROTATION_SCORE and", "", "test_symmetries -k keeps_all"),
+        ("quality.score >= min_score and", "", "test_symmetries -k keeps_all"),
+        ("_SCORES[_keeps_shot(quality, shape)]", "_SCORES[1]", "test_symmetries -k keeps_all"),
         (" and moved > _MIN_ROTATION", "", "test_symmetries -k keeps_all"),
         ("is not None and len(side.self_maps)", "is not None", "test_symmetries -k margin_counts_less"),
         (

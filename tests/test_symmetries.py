@@ -376,12 +376,14 @@ def test_a_rotation_moves_the_whole_shape_and_keeps_all(monkeypatch):
         monkeypatch.setattr(self_maps_module, "map_quality", lambda *_: replace(good, **changes))
         return self_maps_module._is_rotation(C, of)
 
-    lost = good.score - self_maps_module._MIN_ROTATION_SCORE
-    assert is_rotation(coverage=good.coverage - lost + 0.1)
-    assert not is_rotation(coverage=good.coverage - lost - 0.1)
+    for least, descriptors in zip(self_maps_module._MIN_ROTATION_SCORES, (0.9, 0.8), strict=True):
+        changes = {"descriptors": descriptors * of.neighbor_difference}
+        lost = replace(good, **changes).score - least
+        assert is_rotation(coverage=good.coverage - lost + 0.1, **changes)
+        assert not is_rotation(coverage=good.coverage - lost - 0.1, **changes)
     assert not is_rotation(C=np.eye(40))
-    assert not is_rotation(orientation=0.4)
-    assert not is_rotation(distortion=1.01 * self_maps_module._MAX_ROTATION_DISTORTION)
+    assert not is_rotation(orientation=0.4, coverage=9.0)
+    assert not is_rotation(distortion=1.01 * self_maps_module._MAX_ROTATION_DISTORTION, coverage=9.0)
     monkeypatch.setattr(self_maps_module, "_MIN_ROTATION", 0.9)
     assert not is_rotation()
 

@@ -52,7 +52,8 @@ _COARSE_FUNCTIONS, _FINE_FUNCTIONS = 14, 40
 _MIN_DIFFERENCE = 0.08  # mean distance, in √area, between the images of two self-maps
 _MIN_DISPLACEMENT = 0.1  # mean distance, in √area, by which a self-map must move points; less is the identity
 _MIN_ROTATION = 0.2  # the same of a self-map that rotates the whole shape, and not a limb about its axis
-_MAX_ROTATION_DISTORTION, _MIN_ROTATION_SCORE = 0.07, -3.4  # of such a self-map; one of a person has 0.057 and -3.5
+_MAX_ROTATION_DISTORTION = 0.07  # of such a self-map
+_MIN_ROTATION_SCORES = -3.0, -3.4  # of any such self-map, and of one that keeps SHOT; people have -3.3 and -3.5
 
 
 def self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
@@ -84,8 +85,9 @@ def _is_rotation(C: np.ndarray, shape: ShapeSamples) -> bool:
     own = shape.functions[:, : len(C)]
     images = nearest(own, own @ C.T)
     quality, moved = map_quality(C, shape, shape, images), _distance(shape.positions[images], shape.positions)
+    min_score = _MIN_ROTATION_SCORES[_keeps_shot(quality, shape)]
     is_near_isometric = quality.orientation > 0.5 and quality.distortion <= _MAX_ROTATION_DISTORTION
-    return is_near_isometric and quality.score >= _MIN_ROTATION_SCORE and moved > _MIN_ROTATION
+    return is_near_isometric and quality.score >= min_score and moved > _MIN_ROTATION
 
 
 def self_images(shape: Shape, vertices: np.ndarray, rng: int = 0, turned: bool = False) -> np.ndarray:
