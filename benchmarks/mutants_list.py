@@ -1231,7 +1231,7 @@ MUTANTS = tuple(
             "test_registration_evidence -k contradicts_most",
         ),
         ("if gain > -SCORE.close_margin and", "if gain > 0 and", "test_registration_evidence -k contradicts_most"),
-        (" and fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
+        (" and state.samples.fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
         (", trust_landmarks=False)", ")", "test_registration_evidence -k contradicts_most"),
         (
             "if is_same or is_most(~contradicted)",
@@ -1250,7 +1250,8 @@ MUTANTS = tuple(
             "test_registration_evidence -k hardly_change",
         ),
         ("margin = state.samples.fine.margin_factor * max(", "margin = max(", "test_symmetries -k margin_counts_less"),
-        ("(self.has_rotation or not self.has_one_reflection)", "True", "test_symmetries -k margin_counts_less"),
+        ("are_symmetric and not self.has_one_reflection", "are_symmetric", "test_symmetries -k margin_counts_less"),
+        ("return is_found and not self.has_rotation", "return is_found", "test_symmetries -k margin_counts_less"),
         ("source.has_rotation or self", "source.has_rotation and self", "test_symmetries -k margin_counts_less"),
         ("if has_rotation or (margin", "if (margin", "test_symmetries -k quality_alone"),
         ("None if has_rotation else find_reflection", "find_reflection", "test_symmetries -k candelabra"),

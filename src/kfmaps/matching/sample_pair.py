@@ -41,25 +41,24 @@ class SamplePair:
         return self.source.orientation is not None and self.target.orientation is not None
 
     @property
-    def has_one_reflection(self) -> bool:
-        """Whether one shape at least is nearly its own mirror image in one way alone, so that no turn keeps it."""
-        return self.source.reflection_map is not None or self.target.reflection_map is not None
-
-    @property
     def has_rotation(self) -> bool:
         """Whether a self-map rotates one of the shapes as a whole, as half a turn does a table."""
         return self.source.has_rotation or self.target.has_rotation
 
     @property
-    def may_be_rotated(self) -> bool:
-        """Whether a rotation may keep both shapes: they have self-maps, and a rotation or no single reflection."""
-        are_symmetric = all(side.self_maps is not None and len(side.self_maps) for side in (self.source, self.target))
-        return are_symmetric and (self.has_rotation or not self.has_one_reflection)
+    def has_one_reflection(self) -> bool:
+        """Whether one shape at least is nearly its own mirror image in one way alone, so that no rotation keeps it."""
+        is_found = self.source.reflection_map is not None or self.target.reflection_map is not None
+        return is_found and not self.has_rotation
 
     @property
     def margin_factor(self) -> float:
-        """Factor of margins in score: less than 1 where a rotation may keep both shapes."""
-        return SCORE.rotation_margin if self.may_be_rotated else 1.0
+        """Factor of margins in score: less than 1 where a rotation may keep both shapes, as that of a table.
+
+        They have self-maps, but no single reflection.
+        """
+        are_symmetric = all(side.self_maps is not None and len(side.self_maps) for side in (self.source, self.target))
+        return SCORE.rotation_margin if are_symmetric and not self.has_one_reflection else 1.0
 
     def solver(self, k: int) -> np.ndarray:
         """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""

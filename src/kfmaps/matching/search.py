@@ -260,8 +260,7 @@ def _compare_with_free(
         if is_same and (found.confidence or 0.0) > (result.confidence or 0.0):
             return replace(result, confidence=found.confidence, verdict=found.verdict)
         return result
-    fine = state.samples.fine
-    if gain > -SCORE.close_margin and fine.has_one_reflection and not fine.may_be_rotated:
+    if gain > -SCORE.close_margin and state.samples.fine.has_one_reflection:
         state = replace(state, doubts=(*state.doubts, (best, -gain)), trust_landmarks=False)
     return _result(state, retries)
 

@@ -160,7 +160,8 @@ def find_self_maps(shape: ShapeSamples, functions: int) -> list[np.ndarray]:
     """Return functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
     At most two start from signs, two from rotated pairs and two from extremities, the best of each first. Their images
-    differ. A shape without near-symmetries has none. The parameters are those of :func:`self_maps`.
+    differ, but on a thin shape a rotation from extremities may lie near a reflection. A shape without near-symmetries
+    has none. The parameters are those of :func:`self_maps`.
     """
     stop, pair = _size(shape, functions), build_sample_pair(shape, shape)
     count = min(5, stop - 1)
