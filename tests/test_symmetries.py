@@ -358,6 +358,7 @@ def test_a_flat_candelabra_is_rotated_though_that_hardly_differs_from_its_reflec
     mesh = Mesh(*closed_mesh(body, body.box(), 1500, np.random.default_rng(0)))
     of = with_self_maps(sample_for_scoring(prepare(mesh, Config())))
     few, found = subsample(of, 400), {}
+    assert of.self_maps is not None
     for C in of.self_maps:
         orientation = map_quality(C, few, few).orientation
         if abs(orientation) > 0.9:
@@ -372,7 +373,7 @@ def test_a_rotation_moves_the_whole_shape_and_keeps_all(monkeypatch):
     qualities = [(C, map_quality(C, of, of)) for C in find_self_maps(of, 60)]
     S, good = next((C, quality) for C, quality in qualities if quality.orientation > 0.9)
 
-    def is_rotation(C=S, **changes):
+    def is_rotation(C: Any = S, **changes: Any) -> bool:
         monkeypatch.setattr(self_maps_module, "map_quality", lambda *_: replace(good, **changes))
         return self_maps_module._is_rotation(C, of)
 
