@@ -1231,6 +1231,7 @@ MUTANTS = tuple(
             "test_registration_evidence -k contradicts_most",
         ),
         ("if gain > -SCORE.close_margin and", "if gain > 0 and", "test_registration_evidence -k contradicts_most"),
+        ("samples.margin_factor < 1.0 or not (has", "not (has", "test_landmark_evidence -k rotation_may_keep"),
         (" and state.samples.fine.has_one_reflection", "", "test_registration_evidence -k contradicts_most"),
         (", trust_landmarks=False)", ")", "test_registration_evidence -k contradicts_most"),
         (

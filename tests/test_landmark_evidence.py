@@ -395,7 +395,7 @@ def conflicting(
     apart = SCORE.distinct_distance * 1.01
     monkeypatch.setattr(landmark_conflicts, "map_distance", lambda one, *_: apart if one is best else 1.0)
     monkeypatch.setattr(landmark_conflicts, "rank_by_surface", lambda _: [first, second])
-    fine = SimpleNamespace(source=None)
+    fine = SimpleNamespace(source=None, margin_factor=1.0)
     state: Any = SimpleNamespace(
         ranked=[best], candidates=[best, first], samples=SimpleNamespace(fine=fine), config=kfmaps.Config()
     )
@@ -427,6 +427,13 @@ def test_a_likely_map_that_contradicts_landmarks_rejects_them_or_casts_a_doubt(
     assert counted == {"doubt": [(first, -ahead)], "left out": [(best, ahead)], "none": []}[outcome]
     monkeypatch.setattr(landmark_conflicts, "map_distance", lambda *_: SCORE.distinct_distance * 0.99)
     assert all(one is first for one, _ in landmark_conflicts.contradicted_landmarks(state)[1])
+
+
+def test_where_a_rotation_may_keep_both_shapes_no_map_rejects_landmarks(monkeypatch: pytest.MonkeyPatch) -> None:
+    state, _, _ = conflicting(monkeypatch, 1.1, -1.0, [0.5, 0.4])
+    state.samples.fine.margin_factor = SCORE.rotation_margin
+    wrong, doubts = landmark_conflicts.contradicted_landmarks(state)
+    assert (wrong.tolist(), doubts) == ([False, False], ())
 
 
 def test_landmarks_that_a_likely_map_rejects_in_part_count_in_its_margin(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -33,7 +33,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     The best map contradicts some while it keeps to most of the others. A map that was found without landmarks and would
     be called "sure" or "likely" contradicts any number, unless a map that keeps to them fits the surfaces nearly as
     well: then none is rejected for it, and it casts a doubt. Where it rejects some, the map that keeps to them does;
-    unless it rejects all, these count in the margin.
+    unless it rejects all, these count in the margin. Between shapes that a rotation may keep, landmarks decide instead.
     """
     best, samples = state.ranked[0], state.samples.fine
     errors = ignore_landmarks(best, samples).landmark_errors
@@ -42,7 +42,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     least = without_landmark_errors(best.unregistered).score - SCORE.repairable_margin
     near = [c for c in state.candidates if without_landmark_errors(c.unregistered).score > least]
     has_alternative = any(map_distance(c, best, samples.source) > SCORE.distinct_distance for c in near)
-    if not has_alternative and not (errors > limit).any():
+    if samples.margin_factor < 1.0 or not (has_alternative or (errors > limit).any()):
         return rejected, ()
     order = rank_by_surface(state)
     free, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
