@@ -1174,6 +1174,7 @@ MUTANTS = tuple(
             "test_parts -k unsure_part",
         ),
         ("is_one_view or _is_whole(best, detection)", "is_one_view", "test_parts -k unsure_part"),
+        ("< -_UPSIDE_DOWN", "< -9", "test_pictures -k upside_down"),
         # the scan of one camera
         ("or detection.is_one_view or", "or", "test_parts -k one_camera"),
         ("areas[normals @ middle > 0]", "areas[normals @ middle < 0]", "test_parts_one_view -k known"),

@@ -301,6 +301,20 @@ def test_shapes_of_different_kinds_are_both_upright() -> None:
     assert viz.following_view(own, person, animal, same).up[2] > 0.9
 
 
+def test_another_kind_that_is_upside_down_in_its_file_is_turned_over() -> None:
+    legs = [((0.12, 0.12, 0.5), (x, y, -0.6)) for y in (-0.9, 0.9) for x in (-0.25, 0.25)]
+    animal = _body(((0.3, 1.2, 0.25), (0, 0, 0)), ((0.2, 0.3, 0.2), (0, 1.4, 0.4)), *legs)
+    wider = np.exp(-animal.vertices[:, 1])
+    other = Mesh(animal.vertices * np.stack([wider, *np.ones((2, len(wider)))], axis=1), animal.faces)
+    over, same = Mesh(other.vertices * (1, -1, -1), other.faces), np.arange(len(wider))
+    view = viz.automatic_view(animal)
+    assert viz.automatic_view(over).up[2] > 0.9, "its own view shows it on its back"
+    assert viz.following_view(view, animal, other, same).up[2] > 0.9
+    seen = viz.following_view(view, animal, over, same)
+    assert seen.up[2] < -0.9
+    assert (view.axes()[0] @ (0, 1, 0)) * (seen.axes()[0] @ (0, -1, 0)) > 0.5, "the head is on the same side"
+
+
 def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path) -> None:
     mesh = blob()
     for kind, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):

@@ -28,6 +28,7 @@ of scanned people in 14 poses who all face one way, 3 % have a smaller ratio whe
 _MAX_DISTORTION = 0.45
 """Typical change of area under a map, as a power of two, above which the shapes are of different kinds. Poses of one
 body have up to 0.42, a cat and a dog 0.49, a gorilla and a woman 0.54, a man and a cat 0.64."""
+_UPSIDE_DOWN = 0.7  # cosine of the angle to "down" from which a map shows that one of two shapes is upside down
 _N_SAMPLES = 800  # points of each shape at which misfits are measured
 
 
@@ -165,7 +166,8 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
     Where there is no map, or one with too little correlation, the principal axes and half turns about them propose
     four rotations, and the one with the smallest distances between the shapes is taken, where they are much smaller
     than without, since poses differ too. Of parts only what has a counterpart is compared. Shapes of different kinds,
-    such as a man and a cat, are each seen upright and onto their own broad side, from where the map says.
+    such as a man and a cat, are each seen upright and onto their own broad side, from where the map says. If the map
+    shows that one of the files is upside down, the target is turned over.
     """
     a, b, correlation, max_ratio = source.vertices, target.vertices, -1.0, _MAX_MISFIT_RATIO
     rotations: list[np.ndarray] = []
@@ -181,7 +183,9 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
         max_ratio = 1.0
         if _are_unlike(source, target, np.asarray(target_to_source)):
             frames = broad_side(source).axes(), broad_side(target).axes()
-            upright = [frames[1].T @ np.diag([sign, 1, sign]) @ frames[0] for sign in (1, -1)]
+            # One of the files may be upside down.
+            up = -1 if (frames[1] @ rotations[0] @ frames[0].T)[1, 1] < -_UPSIDE_DOWN else 1
+            upright = [frames[1].T @ np.diag([side, up, side * up]) @ frames[0] for side in (1, -1)]
             rotation = max(upright, key=lambda one: float(np.sum(one * rotations[0])))
             return rotation if _is_turned(rotation) else None
     a, b = _standard(a), _standard(b)
