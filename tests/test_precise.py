@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, KDTree
 
 import kfmaps
-from conftest import blob
+from conftest import blob, fibonacci_sphere
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.fmap.evaluate import geodesic_errors, precise_errors, smoothness
+from kfmaps.fmap.evaluate import geodesic_errors, precise_errors, reverses_orientation, smoothness
 from kfmaps.fmap.precise import (
     PointMap,
     check_point_map_precise,
@@ -211,3 +211,11 @@ def test_smoothness_of_the_identity_and_of_collapsed_and_mirrored_maps() -> None
     mirrored = smoothness(mesh, mirror_mesh(inside_out), np.arange(n))
     assert mirrored.flipped_area == pytest.approx(1.0)
     assert mirrored.stretched_area == 0.0  # lengths are compared at equal areas
+
+
+def test_a_map_to_the_mirror_image_of_a_much_coarser_source_reverses_orientation() -> None:
+    fine, coarse = fibonacci_sphere(2000), fibonacci_sphere(100)
+    kept, mirrored = (KDTree(coarse.vertices).query(fine.vertices * side)[1] for side in ([1, 1, 1], [-1, 1, 1]))
+    assert smoothness(coarse, fine, mirrored).flipped_area < 0.3, "most triangles collapse"
+    assert reverses_orientation(coarse, fine, mirrored)
+    assert not reverses_orientation(coarse, fine, kept)

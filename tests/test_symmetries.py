@@ -235,6 +235,24 @@ def test_a_symmetric_body_in_the_mirrored_pose_is_not_taken_for_a_mirror_image(w
     assert verdicts[0] == "ambiguous"
 
 
+def test_landmarks_decide_between_a_mirrored_pose_and_a_mirror_image(walk):
+    """Without them the map that keeps orientation is "ambiguous" with one to the mirror image, which fits better."""
+    posed, source, target = walk
+    places, rng = posed.source.vertices, np.random.default_rng(3)
+    apart = np.linalg.norm(places[posed.truth] - places[posed.mirrored], axis=1)
+
+    def outcome(ends, where):
+        """Of a search with landmarks at target vertices ``where`` and at source vertices ``ends`` there."""
+        distinct = np.unique(ends, return_index=True)[1]
+        some = rng.choice(distinct[where[distinct]], 8, replace=False)
+        found = search_map(source, target, SMALL, landmarks=np.column_stack([ends[some], some]))
+        return found.orientation, found.verdict, len(found.rejected_landmarks)
+
+    assert outcome(posed.truth, apart > 0.3) == ("reversing", "sure", 0)
+    assert outcome(posed.mirrored, apart > 0.3) == ("preserving", "sure", 0)
+    assert outcome(posed.truth, apart < 0.04) == ("preserving", "ambiguous", 0), "these say nothing"
+
+
 @pytest.mark.parametrize(("advantage", "verdict"), [(0.9, "ambiguous"), (1.3, "ambiguous"), (3.0, "sure")])
 def test_only_a_mirror_image_that_is_much_more_isometric_is_sure(walk, monkeypatch, advantage, verdict):
     monkeypatch.setattr(orientation, "SCORE", replace(SCORE, mirror_margin=0.0))

@@ -69,6 +69,8 @@ def test_the_summary_says_which_landmarks_had_no_say() -> None:
     assert _summary(match)["landmarks"] == _summary(held)["landmarks"] == left_out
     says = "; most are 4 % of √area or more from the map, so they do not hold it"
     assert _summary(loose)["landmarks"] == left_out + says
+    most = replace(match, score=MatchScore(rejected_landmarks=np.array([0, 1])))
+    assert _summary(most)["landmarks"].endswith("or is a shape mirrored (--orientation reversing)?")
 
 
 def test_the_summary_says_what_part_the_kernel_had() -> None:
@@ -111,7 +113,7 @@ def test_the_summary_says_what_decides_between_a_body_and_its_mirror_image() -> 
     def told(gain: float, word: str, other: np.ndarray, **fields: Any) -> bool:
         score = MatchScore(scores=(-3.0, -3.0 + gain))
         rival = replace(_match(), verdict=word, score=score, alternatives=(other,), **fields)
-        return "take --orientation preserving" in _summary(rival).get("orientation", "")
+        return "take --orientation reversing if" in _summary(rival).get("orientation", "")
 
     assert told(1.1, "ambiguous", mirrored)
     assert told(-1.0, "ambiguous", turned, orientation="reversing")

@@ -120,16 +120,11 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
         A point or a vertex of the source for each target vertex.
     """
     places = _as_point_map(places, source, len(target.vertices))
-    # Files that are inside out are turned first, so that their maps flip nothing.
-    faces_s, faces_t = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
     images = point_positions(places, source)
     covered = np.unique(source.faces[places.faces][places.weights > 0])
     areas_s, areas_t = vertex_areas(source), face_areas(target)
-    normals_s = vertex_normals(Mesh(source.vertices, faces_s))
-    normals = np.einsum("ti,tij->tj", places.weights, normals_s[source.faces[places.faces]])
-    a, b, c = (images[faces_t[:, i]] for i in range(3))
-    flipped = np.einsum("fi,fi->f", np.cross(b - a, c - a), normals[faces_t].sum(axis=1)) < 0
-    i, j = mesh_edges(faces_t, len(target.vertices))[0].T
+    flipped = _kept_orientation(source, target, places) < 0
+    i, j = mesh_edges(target.faces, len(target.vertices))[0].T
     before = np.linalg.norm(target.vertices[i] - target.vertices[j], axis=1)
     after = np.linalg.norm(images[i] - images[j], axis=1)
     scale = np.sqrt(surface_area(source) / surface_area(target))
@@ -139,6 +134,25 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
         float(areas_t[flipped].sum() / areas_t.sum()),
         float(stretched.mean()),
     )
+
+
+def reverses_orientation(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> bool:
+    """Return whether a map turns over more of the target's area than it keeps, as one to the mirror image does.
+
+    Triangles whose corners have one image, as most have on a much coarser source, count for neither.
+    """
+    kept = _kept_orientation(source, target, _as_point_map(places, source, len(target.vertices)))
+    return float(face_areas(target) @ np.sign(kept)) < 0.0
+
+
+def _kept_orientation(source: Mesh, target: Mesh, places: PointMap) -> np.ndarray:
+    """Return a number (f_t,) for each target triangle: negative if its image is turned over, 0 if it has no area."""
+    # Files that are inside out are turned first, so that their maps flip nothing.
+    faces_s, faces_t = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
+    normals_s = vertex_normals(Mesh(source.vertices, faces_s))
+    normals = np.einsum("ti,tij->tj", places.weights, normals_s[source.faces[places.faces]])
+    a, b, c = (point_positions(places, source)[faces_t[:, i]] for i in range(3))
+    return np.einsum("fi,fi->f", np.cross(b - a, c - a), normals[faces_t].sum(axis=1))
 
 
 def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:

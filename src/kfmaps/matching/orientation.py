@@ -10,14 +10,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from kfmaps.fmap.evaluate import smoothness
+from kfmaps.fmap.evaluate import reverses_orientation
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import by_score, compose_with_symmetries, rerefine, score_maps
-from kfmaps.matching.landmark_conflicts import rank_by_surface, without_landmark_errors
+from kfmaps.matching.landmark_conflicts import ignore_landmarks, rank_by_surface, without_landmark_errors
 from kfmaps.matching.ranking import ProxyCache, ranking
 from kfmaps.matching.result import Match
 from kfmaps.matching.sample_pair import SamplePair, mirrored_pair
-from kfmaps.matching.score import SCORE, Candidate
+from kfmaps.matching.score import SCORE, Candidate, max_landmark_error
 from kfmaps.matching.search_state import SearchState
 
 
@@ -29,8 +29,9 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     does one that is better and hardly deforms the shape, unless the state forbids it
     (:attr:`~kfmaps.matching.search_state.SearchState.may_reverse`) or a map that keeps orientation preserves distances
     nearly as well: then the shape is nearly its own mirror image, and the poses may be mirrored, as those of a walk.
-    Any other that is better becomes a doubt. So does the best map where it is replaced, unless the shapes are
-    congruent: of two poses of a person in a robe, one mirrored, none that keeps orientation does so as well.
+    There landmarks decide. Any other that is better becomes a doubt. So does the best map where it is replaced, unless
+    landmarks decide or the shapes are congruent: of two poses of a person in a robe, one mirrored, none that keeps
+    orientation does so as well.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
@@ -57,11 +58,13 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             state = replace(state, candidates=found, without_landmarks=free, ranked=preserving)
             gain = _gain(image, state, is_auto)
     is_congruent = energy is not None and energy < SCORE.congruent_energy
-    margin = SCORE.mirror_gain if is_congruent else SCORE.mirror_margin
+    is_led = is_auto and state.may_reverse and gain > SCORE.mirror_gain and _landmarks_prefer(image, mirrored, state)
+    margin = SCORE.mirror_gain if is_congruent or is_led else SCORE.mirror_margin
     advantage = _isometry_advantage(image, state.candidates) - SCORE.isometry_margin
-    may_reverse = not is_auto or (state.may_reverse and advantage > 0)
+    may_reverse = not is_auto or is_led or (state.may_reverse and advantage > 0)
     if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:
-        doubts = ((state.ranked[0], SCORE.isometry_factor * advantage),) if is_auto and not is_congruent else ()
+        has_rival = is_auto and not (is_congruent or is_led)
+        doubts = ((state.ranked[0], SCORE.isometry_factor * advantage),) if has_rival else ()
         samples = replace(samples, fine=mirrored)
         return replace(
             state,
@@ -79,6 +82,21 @@ def _isometry_advantage(image: Candidate, found: list[Candidate]) -> float:
     """Return by how much the map to the mirror image is more isometric than all maps that keep orientation."""
     kept = [c.quality.isometry_score for c in found if c.quality.orientation > 0.5]
     return image.quality.isometry_score - max(kept, default=-np.inf)
+
+
+def _landmarks_prefer(image: Candidate, mirrored: SamplePair, state: SearchState) -> bool:
+    """Return whether landmarks keep to a map to the mirror image, and not to the best that was found without them.
+
+    Then two kinds of evidence say that the shapes are mirror images, as a left and a right bone are.
+    """
+    if not len(state.landmarks):
+        return False
+    compared = (rank_by_surface(state)[0], state.samples.fine), (image, mirrored)
+    free, led = (
+        ignore_landmarks(one, samples).landmark_errors > max_landmark_error(one.quality.calibrated_score)
+        for one, samples in compared
+    )
+    return bool(free.any() and not led.any())
 
 
 def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:
@@ -110,7 +128,8 @@ def orientation_text(match: Match, source: Mesh, target: Mesh) -> str:
     config = getattr(match, "config", None)
     search = config and config.search
     is_open = match.verdict == "ambiguous" and search is not None and search.orientation == "auto"
-    remedy = "; take --orientation preserving if neither file is mirrored, else reversing" if is_open else ""
+    mirrored = "one shape is mirrored, as a left and a right bone are"
+    remedy = f"; take --orientation reversing if {mirrored}, else preserving" if is_open else ""
     if match.orientation == "reversing":
         return f"reversed: the target is matched as the mirror image of the source{remedy}"
     if is_open and _is_mirror_image_better(match, source, target):
@@ -123,4 +142,4 @@ def _is_mirror_image_better(match: Match, source: Mesh, target: Mesh) -> bool:
     scores, has_alternative = match.score.scores, len(match.alternatives) > 0
     if not has_alternative or match.partial.which != "none" or scores[1] - scores[0] <= SCORE.mirror_gain:
         return False
-    return smoothness(source, target, match.alternatives[0]).flipped_area > 0.5
+    return reverses_orientation(source, target, match.alternatives[0])

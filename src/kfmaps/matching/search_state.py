@@ -33,8 +33,9 @@ class SearchState:
     # exchanged, one that contradicts the landmarks.
     doubts: tuple[tuple[Candidate, float], ...] = ()
     without_landmarks: list[Candidate] = field(default_factory=list)  # candidates that landmarks took no part in
-    # Whether a map to the mirror image may come first with the setting "auto": with landmarks only where one does
-    # without them. Landmarks with left and right exchanged agree with one of any body that is nearly its own image.
+    # Whether a map to the mirror image may come first with the setting "auto": with landmarks only where one fits
+    # better without them. Landmarks with left and right exchanged agree with one of any body that is nearly its own
+    # mirror image.
     may_reverse: bool = True
     # Whether landmarks raise the probability: not where they contradict a map that is about as good without them.
     trust_landmarks: bool = True
