@@ -215,7 +215,8 @@ def test_smoothness_of_the_identity_and_of_collapsed_and_mirrored_maps() -> None
 
 def test_a_map_to_the_mirror_image_of_a_much_coarser_source_reverses_orientation() -> None:
     fine, coarse = fibonacci_sphere(2000), fibonacci_sphere(100)
-    kept, mirrored = (KDTree(coarse.vertices).query(fine.vertices * side)[1] for side in ([1, 1, 1], [-1, 1, 1]))
+    places = [fine.vertices * side for side in ([1, 1, 1], [-1, 1, 1])]
+    kept, mirrored = (np.asarray(KDTree(coarse.vertices).query(place)[1]) for place in places)
     assert smoothness(coarse, fine, mirrored).flipped_area < 0.3, "most triangles collapse"
     assert reverses_orientation(coarse, fine, mirrored)
     assert not reverses_orientation(coarse, fine, kept)
