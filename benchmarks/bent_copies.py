@@ -7,7 +7,8 @@ such maps should not be "sure".
 
 ``--cut part``: the copy is cut by a random plane; ``--cut both``: both are, at nearly one place. ``--given``: the
 meshes themselves, however coarse, up to 3,000 vertices, and copies that are not bent. ``--mirrored``: mirrored copies,
-of which a body that is nearly its own mirror image has a map that keeps orientation too.
+of which a body that is nearly its own mirror image has a map that keeps orientation too; with ``--landmarks 5`` by five
+true landmarks, with ``--orientation either`` by that setting.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ import kfmaps
 from kfmaps.datasets import largest_piece
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.connectivity import half_edges
+from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, mirror_mesh, unit_area
 from kfmaps.geometry.subdivision import loop_matrix
 from kfmaps.io.meshes import READERS
@@ -109,14 +111,27 @@ def made(mesh: Mesh, arguments: argparse.Namespace, rng: np.random.Generator) ->
     return source, target
 
 
+def spread(source: Side, target: Side, count: int) -> np.ndarray | None:
+    """True landmarks (count, 2) that are far from each other; ``None`` of none."""
+    if count == 0:
+        return None
+    ends = farthest_geodesic(source.mesh, count, 0)
+    return np.column_stack([ends, KDTree(target.places).query(source.places[ends])[1]])
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cut", choices=("part", "both"))
     parser.add_argument("--given", action="store_true")
     parser.add_argument("--mirrored", action="store_true")
+    parser.add_argument("--orientation", choices=("auto", "preserving", "reversing", "either"), default="auto")
+    parser.add_argument("--landmarks", type=int, default=0)
     parser.add_argument("--seed", type=int, default=0)
     arguments = parser.parse_args()
+    config = kfmaps.Config(threads=1)
+    assert config.search is not None
+    config = replace(config, search=replace(config.search, orientation=arguments.orientation))
     rows = []
     print(f"{'mesh':24} vertices      error  unmatched  verdict             CPU s")
     for path in sorted(p for p in arguments.folder.iterdir() if p.suffix.lower() in READERS):
@@ -128,7 +143,9 @@ def main() -> None:
             source, target = made(mesh, arguments, np.random.default_rng([arguments.seed, *path.stem.encode()]))
             start = time.process_time()
             try:
-                found = kfmaps.match(source.mesh, target.mesh, kfmaps.Config(threads=1))
+                found = kfmaps.match(
+                    source.mesh, target.mesh, config, landmarks=spread(source, target, arguments.landmarks)
+                )
             except kfmaps.InvalidInput as error:
                 print(f"{path.stem:24} {error}", flush=True)
                 continue

@@ -30,13 +30,14 @@ def test_landmarks_are_advised_only_where_none_were_given() -> None:
 
 
 def test_a_page_says_the_same() -> None:
-    for kind, confidence, landmarks in (("likely", 0.6, 0), ("unlikely", 0.1, 2), ("unlikely", None, 0)):
-        record = verdict_record(kind, confidence, landmarks)
-        assert record == {"kind": kind, "text": verdict_text(kind, landmarks), "confidence": confidence}
-    assert verdict_record("unheard of", 0.5, 0) is None
-    record = verdict_record("sure", 0.95, 0, "reversed")
+    for kind, confidence, n_landmarks in (("likely", 0.6, 0), ("unlikely", 0.1, 2), ("unlikely", None, 0)):
+        match = replace(_match(landmarks=np.zeros((n_landmarks, 2))), verdict=kind, confidence=confidence)
+        expected = {"kind": kind, "text": verdict_text(kind, n_landmarks), "confidence": confidence}
+        assert verdict_record(match, SPHERE, SPHERE) == expected
+    assert verdict_record(replace(_match(), verdict="unheard of"), SPHERE, SPHERE) is None
+    record = verdict_record(_match(orientation="reversing"), SPHERE, SPHERE)
     assert record is not None
-    assert record["text"] == f"{VERDICTS['sure']} Orientation reversed."
+    assert str(record["text"]).startswith(f"{VERDICTS['sure']} Orientation reversed: ")
 
 
 def test_probabilities_are_whole_per_cents_but_at_the_ends() -> None:

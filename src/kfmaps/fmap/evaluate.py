@@ -140,6 +140,12 @@ def reverses_orientation(source: Mesh, target: Mesh, places: PointMap | np.ndarr
     """Return whether a map turns over more of the target's area than it keeps, as one to the mirror image does.
 
     Triangles whose corners have one image, as most have on a much coarser source, count for neither.
+
+    Parameters
+    ----------
+    source, target : Mesh
+    places : PointMap or (n_t,) int
+        A point or a vertex of the source for each target vertex.
     """
     kept = _kept_orientation(source, target, _as_point_map(places, source, len(target.vertices)))
     return float(face_areas(target) @ np.sign(kept)) < 0.0

@@ -10,6 +10,8 @@ from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.evaluate import area_distortion
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import projected_uv
+from kfmaps.matching.orientation import orientation_text
+from kfmaps.matching.result import Match
 from kfmaps.viz.camera import broad_side, rotation_between
 from kfmaps.viz.document import encode_floats, encode_integers
 from kfmaps.viz.figures import position_colors
@@ -47,14 +49,14 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-def verdict_record(
-    verdict: str, confidence: float | None, n_landmarks: int, orientation: str = ""
-) -> dict[str, object] | None:
-    """Return a verdict with its text, and that of its ``orientation``, if any; ``None`` for an unknown verdict."""
-    if verdict not in VERDICTS:
+def verdict_record(match: Match, source: Mesh, target: Mesh) -> dict[str, object] | None:
+    """Return the verdict of a match with its text and what it says of orientation; ``None`` for an unknown verdict."""
+    if match.verdict not in VERDICTS:
         return None
+    orientation = orientation_text(match, source, target)
     more = f" Orientation {orientation}." if orientation else ""
-    return {"kind": verdict, "text": verdict_text(verdict, n_landmarks) + more, "confidence": confidence}
+    text = verdict_text(match.verdict, len(match.landmarks)) + more
+    return {"kind": match.verdict, "text": text, "confidence": match.confidence}
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, object]:

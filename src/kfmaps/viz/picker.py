@@ -220,7 +220,7 @@ class PickerServer(LocalServer):
         self._maps.append(match)
         label = plural(len(pairs), "landmark")
         confidence = encode_floats(local_confidence(source, target, points))
-        verdict = verdict_record(match.verdict, match.confidence, len(pairs))
+        verdict = verdict_record(match, source, target)
         return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict}
 
     def _pairs(self, request: JsonObject) -> np.ndarray:

@@ -23,7 +23,6 @@ from kfmaps.io import MeshFile, check_map, projected_uv
 from kfmaps.io.bake import decode_picture
 from kfmaps.io.export import with_source_texture
 from kfmaps.io.transfer import LOST_GREY, transfer
-from kfmaps.matching.orientation import orientation_text
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import fit_rotation
 from kfmaps.viz.document import data_address, document, encode_floats, encode_integers
@@ -117,9 +116,7 @@ def match_page(
         "kind": "result",
         "up": up,
         "views": views_record(mesh, target, maps[0]),
-        "verdict": verdict_record(
-            match.verdict, match.confidence, len(match.landmarks), orientation_text(match, mesh, target)
-        ),
+        "verdict": verdict_record(match, mesh, target),
         "source": source_record(mesh, names[0], colors),
         "target": shape_record(target, names[1]),
         "rotation": _rotation_by_map(mesh, target, maps[0]).ravel(),
