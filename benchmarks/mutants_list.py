@@ -1180,6 +1180,7 @@ MUTANTS = tuple(
         ("is_congruent or is_led else", "is_congruent else", "test_symmetries -k landmarks_decide"),
         ("free.any() and not led.any()", "not led.any()", "test_symmetries -k landmarks_decide"),
         ("@ np.sign(kept)) < 0.0", "@ (kept < 0)) > 0.5 * face_areas(target).sum()", "test_precise -k coarser"),
+        ("(SCORE.rotation_margin if is_better else 1.0) * (", "(", "test_symmetries -k by_its_quality"),
         ("< -_UPSIDE_DOWN", "< -9", "test_pictures -k upside_down"),
         # the scan of one camera
         ("or detection.is_one_view or", "or", "test_parts -k one_camera"),

@@ -513,6 +513,8 @@ def test_a_symmetric_rival_is_compared_by_its_quality_alone(on):
     bends_less, bends_more = (replace(best, deformation_energy=usual * x, strain=0.1) for x in (0.99, 1.01))
     assert _margin(best, bends_less, False) == 0.0
     assert _margin(best, bends_more, False) == pytest.approx(best.score - bends_more.score) != 0.0
+    better = replace(bends_more, quality=replace(best.quality, coverage=best.quality.coverage + 0.1))
+    assert _margin(best, better, False) == pytest.approx(SCORE.rotation_margin * (best.score - better.score))
     worse = replace(bends_less, quality=replace(best.quality, coverage=best.quality.coverage - 0.31))
     assert _margin(best, worse, False) == pytest.approx(best.score - worse.score)
     # Landmarks tell a shape from its turned image: those that are missed count as in the score.

@@ -60,11 +60,11 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
     if n_landmarks:
         numbers = ", ".join(str(number) for number in rejected)
         left_out = f"; left out, since the map contradicts them: number {numbers}, counted from 0" if numbers else ""
-        if 2 * len(rejected) > n_landmarks:
-            left_out += ". Are left and right exchanged in a list, or is a shape mirrored (--orientation reversing)?"
         is_held = match.registration.report is None or match.registration.report.landmarks_held
         warning = "" if is_held else "; most are 4 % of √area or more from the map, so they do not hold it"
-        rows.append(("landmarks", f"{n_landmarks}{left_out}{warning}"))
+        question = ". Are left and right exchanged in a list, or is a shape mirrored (--orientation reversing)?"
+        question = question if 2 * len(rejected) > n_landmarks else ""
+        rows.append(("landmarks", f"{n_landmarks}{left_out}{warning}{question}"))
     if fit.weights is not None:
         group, least = match.config.formulation.loss_group, np.argsort(fit.weights)[:3]
         text = ", ".join(f"{group} {number} {fit.weights[number]:.2f}" for number in least)

@@ -269,8 +269,9 @@ class Scoring:
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
     rotation_margin: float = 0.4
-    """Factor of margins between shapes that a rotation may keep (:attr:`SamplePair.margin_factor`): there poses and
-    proportions decide, and a table was a turn off by a margin of 5.3 (research/verdict.md)."""
+    """Factor of margins between shapes that a rotation may keep (:attr:`SamplePair.margin_factor`), and over candidates
+    that are better but for their registration: there poses and proportions decide, and a table was a turn off by a
+    margin of 5.3 (research/verdict.md)."""
     turned_deformation: float = 3.0
     """Difference in :func:`deformation_cost` to the best from which a candidate that is close to it otherwise is
     repaired: one limb turned costs 5.9 and 8.5, front and back of a person exchanged up to 2.8."""

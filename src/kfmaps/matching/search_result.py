@@ -128,12 +128,13 @@ def _margin(best: Candidate, other: Candidate, has_rotation: bool) -> float:
     A candidate that preserves distances and descriptors as well, and deforms the shape no more than right maps do, is
     the best map after a symmetry of the shape. Which of the two deforms the shape less depends on the poses alone, so
     their deformation energies are left out, as wherever a rotation keeps a shape (``has_rotation``); landmarks still
-    tell them apart.
+    tell them apart. Where the other is the better map but for its registration, the margin counts less, too.
     """
     margin = best.quality.score - other.quality.score
     if has_rotation or (margin < SCORE.clear_margin and other.excess_deformation < 0.0):
         return margin + landmark_cost(other.landmark_errors) - landmark_cost(best.landmark_errors)
-    return best.score - other.score
+    is_better = other.unregistered.score > best.unregistered.score
+    return (SCORE.rotation_margin if is_better else 1.0) * (best.score - other.score)
 
 
 def alternative_maps(maps: list[np.ndarray], source: Basis, target: Basis) -> tuple[np.ndarray, ...]:
