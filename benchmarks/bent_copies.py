@@ -112,7 +112,7 @@ def made(mesh: Mesh, arguments: argparse.Namespace, rng: np.random.Generator) ->
 
 
 def spread(source: Side, target: Side, count: int) -> np.ndarray | None:
-    """True landmarks (count, 2) that are far from each other; ``None`` of none."""
+    """True landmarks (count, 2) that are far from each other; ``None`` where there are none."""
     if count == 0:
         return None
     ends = farthest_geodesic(source.mesh, count, 0)

@@ -1178,7 +1178,11 @@ MUTANTS = tuple(
         ("or is_led or (", "or (", "test_symmetries -k landmarks_decide"),
         ("not (is_congruent or is_led)", "not is_congruent", "test_symmetries -k landmarks_decide"),
         ("is_congruent or is_led else", "is_congruent else", "test_symmetries -k landmarks_decide"),
-        ("free.any() and not led.any()", "not led.any()", "test_symmetries -k landmarks_decide"),
+        (
+            "return bool(contradicted_without_them(rank_by_surface(state)[0], state.samples.fine).any())",
+            "return True",
+            "test_symmetries -k landmarks_decide",
+        ),
         ("@ np.sign(kept)) < 0.0", "@ (kept < 0)) > 0.5 * face_areas(target).sum()", "test_precise -k coarser"),
         ("(SCORE.rotation_margin if is_better else 1.0) * (", "(", "test_symmetries -k by_its_quality"),
         ("< -_UPSIDE_DOWN", "< -9", "test_pictures -k upside_down"),

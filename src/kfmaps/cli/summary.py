@@ -62,9 +62,9 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         left_out = f"; left out, since the map contradicts them: number {numbers}, counted from 0" if numbers else ""
         is_held = match.registration.report is None or match.registration.report.landmarks_held
         warning = "" if is_held else "; most are 4 % of √area or more from the map, so they do not hold it"
-        question = ". Are left and right exchanged in a list, or is a shape mirrored (--orientation reversing)?"
-        question = question if 2 * len(rejected) > n_landmarks else ""
-        rows.append(("landmarks", f"{n_landmarks}{left_out}{warning}{question}"))
+        if 2 * len(rejected) > n_landmarks:
+            warning += ". Are left and right exchanged in a list, or is a shape mirrored (--orientation reversing)?"
+        rows.append(("landmarks", f"{n_landmarks}{left_out}{warning}"))
     if fit.weights is not None:
         group, least = match.config.formulation.loss_group, np.argsort(fit.weights)[:3]
         text = ", ".join(f"{group} {number} {fit.weights[number]:.2f}" for number in least)

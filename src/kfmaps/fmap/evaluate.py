@@ -123,7 +123,7 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
     images = point_positions(places, source)
     covered = np.unique(source.faces[places.faces][places.weights > 0])
     areas_s, areas_t = vertex_areas(source), face_areas(target)
-    flipped = _kept_orientation(source, target, places) < 0
+    flipped = _kept_orientation(source, target, places, images) < 0
     i, j = mesh_edges(target.faces, len(target.vertices))[0].T
     before = np.linalg.norm(target.vertices[i] - target.vertices[j], axis=1)
     after = np.linalg.norm(images[i] - images[j], axis=1)
@@ -147,17 +147,21 @@ def reverses_orientation(source: Mesh, target: Mesh, places: PointMap | np.ndarr
     places : PointMap or (n_t,) int
         A point or a vertex of the source for each target vertex.
     """
-    kept = _kept_orientation(source, target, _as_point_map(places, source, len(target.vertices)))
+    places = _as_point_map(places, source, len(target.vertices))
+    kept = _kept_orientation(source, target, places, point_positions(places, source))
     return float(face_areas(target) @ np.sign(kept)) < 0.0
 
 
-def _kept_orientation(source: Mesh, target: Mesh, places: PointMap) -> np.ndarray:
-    """Return a number (f_t,) for each target triangle: negative if its image is turned over, 0 if it has no area."""
+def _kept_orientation(source: Mesh, target: Mesh, places: PointMap, images: np.ndarray) -> np.ndarray:
+    """Return a number (f_t,) for each target triangle: negative if its image is turned over, 0 if it has no area.
+
+    ``images (n_t, 3)``: the positions of ``places``.
+    """
     # Files that are inside out are turned first, so that their maps flip nothing.
     faces_s, faces_t = (turn_faces(mesh.faces, inward_faces(mesh)) for mesh in (source, target))
     normals_s = vertex_normals(Mesh(source.vertices, faces_s))
     normals = np.einsum("ti,tij->tj", places.weights, normals_s[source.faces[places.faces]])
-    a, b, c = (point_positions(places, source)[faces_t[:, i]] for i in range(3))
+    a, b, c = (images[faces_t[:, i]] for i in range(3))
     return np.einsum("fi,fi->f", np.cross(b - a, c - a), normals[faces_t].sum(axis=1))
 
 

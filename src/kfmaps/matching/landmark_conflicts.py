@@ -48,7 +48,7 @@ def contradicted_landmarks(state: SearchState) -> tuple[np.ndarray, tuple[tuple[
     free, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
     if verdict(free.quality.calibrated_score, margin, free.deformation_energy) not in ("sure", "likely"):
         return rejected, ()
-    contradicted = ignore_landmarks(free, samples).landmark_errors > max_landmark_error(free.quality.calibrated_score)
+    contradicted = contradicted_without_them(free, samples)
     if is_most(contradicted):
         # Where left and right were exchanged, landmarks near the middle would mislead too.
         contradicted = np.ones(len(contradicted), dtype=bool)
@@ -96,6 +96,12 @@ def without_landmark_errors(candidate: Candidate) -> Candidate:
 def ignore_landmarks(candidate: Candidate, samples: SamplePair) -> Candidate:
     """Return the candidate refined without landmarks, so that its landmark errors test both map and landmarks."""
     return rerefine([candidate], replace(samples, landmark_cost=None))[0]
+
+
+def contradicted_without_them(candidate: Candidate, samples: SamplePair) -> np.ndarray:
+    """Return which landmarks (l,) bool a candidate contradicts once it is refined without them."""
+    limit = max_landmark_error(candidate.quality.calibrated_score)
+    return ignore_landmarks(candidate, samples).landmark_errors > limit
 
 
 def support_of_landmarks(best: Candidate, samples: SamplePair) -> float:

@@ -13,11 +13,11 @@ import numpy as np
 from kfmaps.fmap.evaluate import reverses_orientation
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import by_score, compose_with_symmetries, rerefine, score_maps
-from kfmaps.matching.landmark_conflicts import ignore_landmarks, rank_by_surface, without_landmark_errors
+from kfmaps.matching.landmark_conflicts import contradicted_without_them, rank_by_surface, without_landmark_errors
 from kfmaps.matching.ranking import ProxyCache, ranking
 from kfmaps.matching.result import Match
 from kfmaps.matching.sample_pair import SamplePair, mirrored_pair
-from kfmaps.matching.score import SCORE, Candidate, max_landmark_error
+from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.matching.search_state import SearchState
 
 
@@ -91,12 +91,9 @@ def _landmarks_prefer(image: Candidate, mirrored: SamplePair, state: SearchState
     """
     if not len(state.landmarks):
         return False
-    compared = (rank_by_surface(state)[0], state.samples.fine), (image, mirrored)
-    free, led = (
-        ignore_landmarks(one, samples).landmark_errors > max_landmark_error(one.quality.calibrated_score)
-        for one, samples in compared
-    )
-    return bool(free.any() and not led.any())
+    if contradicted_without_them(image, mirrored).any():
+        return False
+    return bool(contradicted_without_them(rank_by_surface(state)[0], state.samples.fine).any())
 
 
 def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:

@@ -140,6 +140,7 @@ def search_map(
             rejected=np.zeros(len(pairs), dtype=bool),
             samples=samples,
             without_landmarks=free,
+            # So far only a map to the mirror image casts a doubt.
             may_reverse=ranked.orientation == "reversing" or len(ranked.doubts) > 0,
         )
         return _search_with_landmarks(state, found, seed, descriptors, report)
