@@ -21,7 +21,9 @@ from scipy.spatial import KDTree
 from shapes import bumpy_sphere
 
 import kfmaps
-from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.geometry.mesh import Mesh, unit_area, unit_rows
+from kfmaps.geometry.subdivision import divide_faces
 from kfmaps.geometry.topology import topology
 
 #: A damaged mesh, and where each of its vertices was before (n, 3); NaN for vertices that are no part of the shape.
@@ -60,10 +62,32 @@ def _decimated(count: int, stretch: float = 1.0) -> Callable[[Mesh, np.random.Ge
     return damage
 
 
-def _soup(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
-    """Each triangle with three vertices of its own, as flat shading leaves them."""
-    vertices = mesh.vertices[mesh.faces.ravel()]
-    return Mesh(vertices, np.arange(len(vertices)).reshape(-1, 3)), vertices
+def _soup(noise: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    """Each triangle with three vertices of its own, as flat shading leaves them, moved as by rounding."""
+
+    def damage(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+        vertices = mesh.vertices[mesh.faces.ravel()]
+        moved = vertices + noise * rng.normal(size=vertices.shape)
+        return Mesh(moved, np.arange(len(vertices)).reshape(-1, 3)), vertices
+
+    return damage
+
+
+def _in_pieces(gap: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    """Six pieces around vertices that are far from each other; each is drawn in on all sides by ``gap``."""
+
+    def damage(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+        distances = kfmaps.geodesic_distances(mesh, farthest_geodesic(mesh, 6, rng))
+        owner = distances.argmin(axis=0)[mesh.faces[:, 0]]
+        pieces, before = [], []
+        for piece in np.unique(owner):
+            used, numbers = np.unique(mesh.faces[owner == piece], return_inverse=True)
+            outward = unit_rows(mesh.vertices[used] - mesh.vertices[used].mean(axis=0))
+            pieces.append(Mesh(mesh.vertices[used] - gap * outward, numbers.reshape(-1, 3)))
+            before.append(mesh.vertices[used])
+        return _with_pieces(pieces[0], pieces[1:])[0], np.concatenate(before)
+
+    return damage
 
 
 def _half_refined(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
@@ -71,8 +95,11 @@ def _half_refined(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
     axis = np.argmax(np.ptp(mesh.vertices, axis=0))
     middle = np.median(mesh.vertices[:, axis])
     upper = mesh.vertices[mesh.faces][:, :, axis].mean(axis=1) > middle
-    fine, faces = (np.asarray(found) for found in igl.upsample(mesh.vertices, mesh.faces[upper], 2))
-    return Mesh(fine, np.concatenate([mesh.faces[~upper], faces])), fine
+    vertices, faces = mesh.vertices, mesh.faces[upper]
+    for _ in range(2):
+        ends, faces = divide_faces(faces, len(vertices))
+        vertices = np.concatenate([vertices, vertices[ends].mean(axis=1)])
+    return Mesh(vertices, np.concatenate([mesh.faces[~upper], faces])), vertices
 
 
 def _turned_over(share: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
@@ -150,7 +177,9 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "1000 vertices": _decimated(1000),
     "500 vertices": _decimated(500),
     "long triangles": _decimated(3000, 0.1),
-    "soup": _soup,
+    "soup": _soup(0.0),
+    "rounded soup": _soup(1e-5),
+    "six pieces": _in_pieces(1e-3),
     "half refined": _half_refined,
     "inside out": _turned_over(1.0),
     "tenth turned": _turned_over(0.1),

@@ -25,6 +25,11 @@ ALTERNATE = "test_alternating_registration"
 MUTANTS = tuple(
     Mutant(*row)
     for row in (
+        # welding
+        ("(rank[vertex] < rank[end])", "(rank[vertex] > rank[end])", "test_cleaning"),
+        ("_MAX_GAP * mean_length[vertex])", "_MAX_GAP / mean_length[vertex])", "test_cleaning"),
+        ("edges[is_reached[edges].all(axis=1)]", "edges[is_reached[edges].any(axis=1)]", "test_cleaning"),
+        ("axis=1) <= reach[b]", "axis=1) <= 3 * reach[b]", "test_cleaning"),
         # kernel
         ("[None, :] - 2 * (X @ Y.T)", "[None, :] - (X @ Y.T)", KERNEL),
         ("return (X @ Y.T + self.offset) ** self.degree", "return (X @ Y.T - self.offset) ** self.degree", KERNEL),

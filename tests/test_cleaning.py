@@ -16,11 +16,13 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.clean import _MAX_SPECK_AREA, clean_mesh, weld_vertices
+from kfmaps.geometry.clean import _MAX_SPECK_AREA, clean_mesh
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.geometry.subdivision import divide_faces
 from kfmaps.geometry.topology import topology
+from kfmaps.geometry.weld import _MAX_GAP, _MAX_GAP_OF_BODY, _MAX_ROUNDING, weld_vertices
 from kfmaps.matching.match import match
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import prepare
@@ -115,6 +117,136 @@ def test_surfaces_that_only_touch_stay_apart() -> None:
     np.testing.assert_array_equal(weld_vertices(two), np.arange(8))
     open_two = Mesh(two.vertices, two.faces[[0, 1, 4, 5]])  # open, and still in one corner only
     np.testing.assert_array_equal(weld_vertices(open_two), np.arange(8))
+
+
+def shortest_edge(mesh: Mesh) -> float:
+    return float(
+        np.linalg.norm(mesh.vertices[mesh.faces] - mesh.vertices[np.roll(mesh.faces, 1, axis=1)], axis=2).min()
+    )
+
+
+@pytest.mark.parametrize("cut", [soup, seamed])
+@pytest.mark.parametrize("amount", [1e-6, 0.4])
+def test_rounded_open_edges_are_connected(cut, amount) -> None:
+    mesh = blob(300)
+    pieces, was = cut(mesh)
+    noise = np.random.default_rng(0).uniform(-1, 1, pieces.vertices.shape) / np.sqrt(12)
+    moved = Mesh(pieces.vertices + amount * _MAX_ROUNDING * shortest_edge(mesh) * noise, pieces.faces)
+    np.testing.assert_array_equal(weld_vertices(moved), weld_vertices(pieces))
+    assert topology(moved).is_closed
+    # As links are as long as they are, distances change no more than positions.
+    apart = geodesic_distances(mesh, was[[3, 70]])[:, was]
+    np.testing.assert_allclose(geodesic_distances(moved, [3, 70]), apart, rtol=0.1, atol=0.1 * shortest_edge(mesh))
+
+
+@pytest.mark.parametrize(("width", "edges"), [(0.05, 0), (0.2, 8)])
+def test_a_slit_is_closed_if_it_is_as_narrow_as_rounding(width, edges) -> None:
+    """A closed sheet of 12 x 12 squares around a torus, slit along four edges, three of whose ends are doubled."""
+    row, column = np.meshgrid(np.arange(12), np.arange(12), indexing="ij")
+    angle, around = 2 * np.pi * row / 12, 2 * np.pi * column / 12
+    radius = 3 + np.cos(around)
+    places = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.sin(around)], axis=2).reshape(-1, 3)
+    corner = np.arange(144).reshape(12, 12)
+    right, above, over = (np.roll(corner, shift, axis=axes) for shift, axes in ((-1, 1), (-1, 0), ((-1, -1), (0, 1))))
+    faces = np.concatenate([np.stack([corner, above, right], 2), np.stack([right, above, over], 2)]).reshape(-1, 3)
+    slit = corner[3, 2:5]
+    is_above = (faces.min(axis=1) >= 36) & (faces.max(axis=1) < 60)
+    number = np.arange(144)
+    number[slit] = 144 + np.arange(3)
+    faces[is_above] = number[faces[is_above]]
+    shortest = np.linalg.norm(places[corner] - places[right], axis=2).min()
+    mesh = Mesh(np.vstack([places, places[slit] + [0, 0, width * shortest]]), faces)
+    assert (topology(mesh).components, topology(mesh).boundary_edges) == (1, edges)
+
+
+def t_junctions(mesh: Mesh, in_pieces: bool) -> tuple[Mesh, np.ndarray]:
+    """Above a plane, faces cut in four on one side and in sixteen on the other; and the middles of those below.
+
+    They are connected at corners, or three pieces.
+    """
+    middle = mesh.vertices[mesh.faces].mean(axis=1)
+    times = np.where(middle[:, 2] < 0.1, 0, np.where(middle[:, 0] < 0, 1, 2))
+    vertices, faces = mesh.vertices, [mesh.faces[times == time] for time in range(3)]
+    for i in (1, 2, 2):
+        ends, faces[i] = divide_faces(faces[i], len(vertices))
+        vertices = np.vstack([vertices, vertices[ends].mean(axis=1)])
+    if in_pieces:
+        return joined(*(Mesh(vertices, some) for some in faces)), middle[times == 0]
+    return Mesh(vertices, np.vstack(faces)), middle[times == 0]
+
+
+@pytest.mark.parametrize("in_pieces", [False, True])
+@pytest.mark.parametrize("is_turned", [False, True])
+def test_t_junctions_are_connected(in_pieces, is_turned) -> None:
+    mesh = blob(300)
+    junctions, coarse = t_junctions(mesh, in_pieces)
+    if is_turned:  # the finer part first
+        junctions = Mesh(junctions.vertices[::-1], len(junctions.vertices) - 1 - junctions.faces)
+    counts, part = topology(junctions), clean_mesh(junctions)
+    assert (counts.components, counts.is_closed, counts.genus) == (1, True, 0)
+    assert (counts.nonmanifold_vertices, counts.inconsistent_edges) == (0, 0)
+    np.testing.assert_allclose(surface_area(part.mesh), surface_area(mesh), rtol=1e-3)
+    # The coarse part is as it was, and no vertex has gone farther than to the next end of a coarse edge.
+    moved = junctions.vertices[part.to_original[part.to_clean]] - junctions.vertices
+    longest = np.linalg.norm(mesh.vertices[mesh.faces] - mesh.vertices[np.roll(mesh.faces, 1, axis=1)], axis=2).max()
+    assert np.linalg.norm(moved[~part.unreferenced], axis=1).max() <= longest / 2 + 1e-12
+    kept = {tuple(np.round(face, 9)) for face in part.mesh.vertices[part.mesh.faces].mean(axis=1)}
+    assert {tuple(np.round(face, 9)) for face in coarse} <= kept
+
+
+def tube(count: int, turn: float, start: float, side: float, jitter: float = 0.0) -> Mesh:
+    """A tube of radius 1, about 0.47 long, of ``count`` squares around with rows of height ``side``."""
+    angle, height = np.meshgrid(np.linspace(0, 2 * np.pi, count, endpoint=False), np.arange(round(0.47 / side) + 1))
+    angle = angle + turn + jitter / count * np.random.default_rng(count).uniform(-1, 1, count)
+    corner = np.arange((len(height) - 1) * count).reshape(-1, count)
+    right, above = np.roll(corner, -1, axis=1), corner + count
+    faces = np.concatenate([np.stack([corner, right, above], 2), np.stack([right, right + count, above], 2)])
+    places = np.stack([np.cos(angle), np.sin(angle), start + side * height], axis=2)
+    return Mesh(places.reshape(-1, 3), faces.reshape(-1, 3))
+
+
+@pytest.mark.parametrize(
+    ("count", "finer", "gap", "components"),
+    [(160, 1, 0.4, 1), (160, 1, 0.52, 2), (40, 1, 0.15, 1), (40, 1, 0.16, 2), (160, 3, 0.15, 1), (160, 3, 0.4, 2)],
+)
+def test_pieces_with_a_narrow_gap_are_connected(count, finer, gap, components) -> None:
+    """It may be half of the shorter open edges wide, but not wider than 0.01 √area, 0.155 of a side of the coarsest."""
+    side = 2 * np.sin(np.pi / count)
+    below = tube(count, 0, 0, side)
+    above = tube(finer * count, 0.3 * side, below.vertices[:, 2].max() + gap * side, side / finer)
+    assert (_MAX_GAP, _MAX_GAP_OF_BODY) == (0.5, 0.01)
+    counts = topology(joined(above, below))
+    n_edges = (1 + finer) * count * components
+    assert (counts.components, counts.boundary_edges) == (components, n_edges)
+    assert np.isfinite(geodesic_distances(joined(above, below), [0])).all() == (components == 1)
+
+
+def test_vertices_of_the_coarser_piece_stay_as_they_are() -> None:
+    side = 2 * np.sin(np.pi / 100)
+    below = tube(100, 0, 0, side, jitter=2.0)
+    above = tube(110, 0.01, below.vertices[:, 2].max() + 0.1 * side, side, jitter=2.0)
+    welded = weld_vertices(joined(above, below))
+    n, top = len(above.vertices), below.vertices[:, 2] > below.vertices[:, 2].max() - 1e-9
+    np.testing.assert_array_equal(welded[n:], n + np.arange(len(below.vertices)))
+    assert (welded[:110] >= n).all()
+    # Each goes to the nearest end of the edge below it.
+    edge = np.linalg.norm(below.vertices[top] - np.roll(below.vertices[top], 1, axis=0), axis=1).max()
+    moved = np.linalg.norm(below.vertices[welded[:110] - n] - above.vertices[:110], axis=1)
+    assert moved.max() < np.hypot(edge / 2, 0.1 * side) * 1.01
+
+
+def test_a_short_edge_keeps_its_ends_apart() -> None:
+    """Two triangles with edges 0.05 apart, whose ends coincide but where one has a short edge."""
+    one = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, -1, 0]])
+    for height, n_welded in ((1.0, 2), (0.2, 0)):
+        other = np.array([[0.0, 0.05, 0], [1, 0.05, 0], [0, 0.05 + height, 0]])
+        pair = Mesh(np.vstack([one, other]), np.array([[0, 2, 1], [3, 4, 5]]))
+        assert (weld_vertices(pair) != np.arange(6)).sum() == n_welded
+
+
+def test_a_thin_face_on_a_border_does_not_collapse() -> None:
+    thin = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0.4, 0.02, 0], [0.5, 0.3, 0]]), np.array([[0, 1, 2], [2, 1, 3]]))
+    np.testing.assert_array_equal(weld_vertices(thin), np.arange(4))
 
 
 @pytest.mark.parametrize("cut", [soup, seamed])

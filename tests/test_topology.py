@@ -18,7 +18,8 @@ GUARDS = ("kfmaps.geometry.mesh", "kfmaps.geometry.connectivity", "kfmaps.geomet
 
 def strip(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False), flip: bool = False) -> Mesh:
     """A grid of squares, each cut in two; wrapped it is a cylinder or torus, flipped a Möbius strip."""
-    flat = sheet(np.linspace(0, 2 * np.pi, rows + 1), np.linspace(0, 2 * np.pi, columns + 1))
+    ends = [2 * np.pi if is_wrapped else 5.0 for is_wrapped in wrap]  # open sides do not lie along each other
+    flat = sheet(np.linspace(0, ends[0], rows + 1), np.linspace(0, ends[1], columns + 1))
     number = np.arange((rows + 1) * (columns + 1)).reshape(rows + 1, columns + 1)
     if wrap[0]:
         number[-1] = number[0, ::-1] if flip else number[0]

@@ -153,7 +153,7 @@ def prepare(
 ) -> Shape:
     """Compute what depends on one shape alone, so that matches with many others share it.
 
-    Coincident open edges are connected and inward faces turned. Second sides of faces, specks and unused vertices are
+    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are
     left out (:mod:`kfmaps.geometry.clean`), and much noise is smoothed
     (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is
     a point cloud. ``config``: its basis, descriptor and refinement settings count.

@@ -34,7 +34,7 @@ class Basis:
     functions : (n, k)
         One eigenfunction a column: ``functionsᵀ diag(mass) functions = I``.
     mass : (n,)
-        Area around each vertex (lumped). Zero at a vertex that no face uses, and at all but the first of welded ones.
+        Area around each vertex (lumped). Zero at a vertex that no face uses, and at one that is welded to another.
 
     Examples
     --------
@@ -175,9 +175,9 @@ def laplace_basis(
     """Return the first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
     Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue zero for
-    each), faces without area, edges with more than two faces. Coincident open edges and coincident points of a cloud
-    are welded (:func:`kfmaps.geometry.clean.weld_vertices`): the first vertex has the mass, the others its functions. A
-    vertex that no face uses has no mass and the functions of the used vertex nearest in space.
+    each), faces without area, edges with more than two faces. Seams and coincident points of a cloud are welded
+    (:func:`kfmaps.geometry.weld.weld_vertices`): one vertex has the mass, the others its functions. A vertex that no
+    face uses has no mass and the functions of the used vertex nearest in space.
 
     Parameters
     ----------

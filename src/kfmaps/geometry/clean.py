@@ -1,7 +1,6 @@
-"""Mesh cleaning: coincident open edges are welded, unused vertices and specks are left out.
+"""Mesh cleaning: seams are welded (:mod:`kfmaps.geometry.weld`), unused vertices and specks are left out.
 
-Files cut surfaces along the seams of a texture, or store every triangle by itself (flat shading, STL). They have
-vertices that no face uses, and specks that float beside the surface. A :class:`CleanedMesh` has both numberings.
+A :class:`CleanedMesh` has the numbers of the given vertices and of those that are left.
 """
 
 from __future__ import annotations
@@ -11,16 +10,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.connectivity import (
-    boundary_edges,
-    component_labels,
-    proper_faces,
-    renumbering,
-    unique_vertices,
-)
+from kfmaps.geometry.connectivity import component_labels, proper_faces, renumbering
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, face_areas
 from kfmaps.geometry.subdivision import interpolating_subdivision
+from kfmaps.geometry.weld import weld_vertices
 
 _MAX_SPECK_AREA = 0.005
 """Area of a component, over that of the largest, below which it is a speck: that of one of 200 samples."""
@@ -31,11 +25,11 @@ class CleanedMesh:
     """A cleaned mesh of ``m`` vertices and the numbers of its ``n`` original ones; made by :func:`clean_mesh`."""
 
     mesh: Mesh  # Its faces have three different corners. The given mesh itself where there is nothing to clean.
-    to_original: np.ndarray  # (m,): original number of each vertex, ascending; the first of welded vertices
+    to_original: np.ndarray  # (m,): original number of each vertex, ascending; of welded vertices the one that stays
     to_clean: np.ndarray  # (n,): cleaned number of each original vertex
     unreferenced: np.ndarray  # (n,) bool: original vertices that no face uses; they have the number of the nearest
     faces_to_original: np.ndarray  # (g,): original number of each face, ascending
-    n_welded: int = 0  # original vertices that are welded to an earlier one
+    n_welded: int = 0  # original vertices that are welded to another one
     specks: int = 0  # components left out
     doubled: int = 0  # faces left out that coincide with another one
     turned: np.ndarray | None = None  # (g,) bool: faces with the orientation reversed; ``None`` where none is
@@ -47,36 +41,6 @@ class CleanedMesh:
     def whole(self) -> bool:
         """Whether no vertex is welded, left out or added."""
         return len(self.to_original) == len(self.to_clean)
-
-
-def weld_vertices(mesh: Mesh) -> np.ndarray:
-    """Return for each vertex the first of those that it is welded with, (n,) int64.
-
-    The ends of exactly coincident open edges of a mesh are welded. Surfaces that only touch in a point stay apart. All
-    coincident points of a cloud are welded.
-    """
-    n = len(mesh.vertices)
-    if len(mesh.faces) == 0:
-        return unique_vertices(mesh.vertices)
-    edges = boundary_edges(mesh.faces[proper_faces(mesh.faces)], n)
-    if len(edges) == 0:
-        return np.arange(n)
-    boundary = np.unique(edges)
-    position = np.arange(n)  # the first vertex at the same position
-    position[boundary] = boundary[unique_vertices(mesh.vertices[boundary])]
-    ends = position[edges]
-    is_descending = ends[:, 0] > ends[:, 1]
-    edges[is_descending], ends[is_descending] = edges[is_descending][:, ::-1], ends[is_descending][:, ::-1]
-    has_length = ends[:, 0] != ends[:, 1]
-    edges, ends = edges[has_length], ends[has_length]
-    order = np.lexsort((ends[:, 1], ends[:, 0]))
-    edges, ends = edges[order], ends[order]
-    coincide = (ends[1:] == ends[:-1]).all(axis=1)
-    if not coincide.any():
-        return np.arange(n)
-    _, group = component_labels(n, edges[:-1][coincide].ravel(), edges[1:][coincide].ravel())
-    first = np.unique(group, return_index=True)[1]
-    return first[group].astype(np.int64)
 
 
 def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:

@@ -14,9 +14,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from kfmaps._arrays import check_count, refuse
-from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, check_is_mesh
+from kfmaps.geometry.weld import weld_vertices
 
 _FULL_SEARCHES = 100  # points from which :func:`pairwise_geodesics` searches the whole surface
 _NEARBY = 0.25  # distance at unit area up to which it searches from other points: a fifth of a body

@@ -6,7 +6,6 @@ import numpy as np
 from scipy.sparse import coo_array
 
 from kfmaps._arrays import check, refuse
-from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import proper_faces, renumbering
 from kfmaps.geometry.geodesic_graph import (
     _cross,
@@ -20,6 +19,7 @@ from kfmaps.geometry.geodesic_graph import (
 )
 from kfmaps.geometry.geodesics import shortest_paths
 from kfmaps.geometry.mesh import Mesh, unit_rows
+from kfmaps.geometry.weld import weld_vertices
 
 
 def surface_point_distances(

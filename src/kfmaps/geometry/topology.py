@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import component_labels, half_edges_by_edge, proper_faces, unique_vertices
 from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.weld import weld_vertices
 
 
 @dataclass(frozen=True)
 class Topology:
     """Counts that describe a triangle mesh. Faces that name a vertex twice enter only ``degenerate_faces``.
 
-    Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.weld_vertices`): a mesh cut along
-    seams, or into single triangles, is the surface that it looks like.
+    Open edges that lie along each other count as connected (:func:`kfmaps.geometry.weld.weld_vertices`): a mesh cut
+    along seams, or into single triangles, is the surface that it looks like.
     """
 
     components: int  # connected pieces of surface, joined where they share a vertex
