@@ -21,6 +21,7 @@ from scipy.spatial import KDTree
 from shapes import bumpy_sphere
 
 import kfmaps
+from kfmaps.geometry.connectivity import component_labels, half_edges_by_edge
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, unit_area, unit_rows
 from kfmaps.geometry.subdivision import divide_faces
@@ -73,18 +74,39 @@ def _soup(noise: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
     return damage
 
 
-def _in_pieces(gap: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
-    """Six pieces around vertices that are far from each other; each is drawn in on all sides by ``gap``."""
+def _six_pieces(
+    gap: float = 0.0, overlap: float = 0.0, moved: float = 0.0, depth: float | None = None
+) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    """Six pieces around vertices that are far from each other.
+
+    Each is drawn in on all sides by ``gap``, or reaches into its neighbours by ``overlap``, is ``moved`` at random, and
+    is closed by cones that end by ``depth`` beyond its border.
+    """
 
     def damage(mesh: Mesh, rng: np.random.Generator) -> Damaged:
         distances = kfmaps.geodesic_distances(mesh, farthest_geodesic(mesh, 6, rng))
-        owner = distances.argmin(axis=0)[mesh.faces[:, 0]]
+        excess = distances - distances.min(axis=0)
         pieces, before = [], []
-        for piece in np.unique(owner):
-            used, numbers = np.unique(mesh.faces[owner == piece], return_inverse=True)
-            outward = unit_rows(mesh.vertices[used] - mesh.vertices[used].mean(axis=0))
-            pieces.append(Mesh(mesh.vertices[used] - gap * outward, numbers.reshape(-1, 3)))
-            before.append(mesh.vertices[used])
+        for piece in range(6):
+            faces = mesh.faces[
+                (excess[piece, mesh.faces[:, 0]] == 0) | (excess[piece, mesh.faces] < overlap).all(axis=1)
+            ]
+            used, numbers = np.unique(faces, return_inverse=True)
+            vertices, faces = mesh.vertices[used], numbers.reshape(-1, 3)
+            middle = vertices.mean(axis=0)
+            vertices = vertices - gap * unit_rows(vertices - middle) + moved * rng.normal(size=3)
+            before += [mesh.vertices[used]]
+            if depth is not None:
+                border = half_edges_by_edge(faces, len(used))[0]
+                tail, head = faces.ravel()[border], faces[:, [1, 2, 0]].ravel()[border]
+                loop = component_labels(len(used), tail, head)[1][tail]
+                for number in np.unique(loop):
+                    centre = vertices[tail[loop == number]].mean(axis=0)
+                    cone = np.stack([head, tail, np.full(len(tail), len(vertices))], axis=1)[loop == number]
+                    tip = centre + depth * unit_rows((centre - middle)[None])
+                    vertices, faces = np.concatenate([vertices, tip]), np.concatenate([faces, cone])
+                    before += [np.full((1, 3), np.nan)]
+            pieces.append(Mesh(vertices, faces))
         return _with_pieces(pieces[0], pieces[1:])[0], np.concatenate(before)
 
     return damage
@@ -179,7 +201,9 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "long triangles": _decimated(3000, 0.1),
     "soup": _soup(0.0),
     "rounded soup": _soup(1e-5),
-    "six pieces": _in_pieces(1e-3),
+    "six pieces": _six_pieces(gap=1e-3),
+    "overlapping": _six_pieces(overlap=0.1, moved=2e-3),
+    "stuck together": _six_pieces(overlap=0.02, depth=0.08),
     "half refined": _half_refined,
     "inside out": _turned_over(1.0),
     "tenth turned": _turned_over(0.1),

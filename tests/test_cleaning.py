@@ -221,6 +221,18 @@ def test_pieces_with_a_narrow_gap_are_connected(count, finer, gap, components) -
     assert np.isfinite(geodesic_distances(joined(above, below), [0])).all() == (components == 1)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_pieces_whose_borders_cross_stay_apart(seed) -> None:
+    mesh, rng = blob(1500), np.random.default_rng(seed)
+    first, second, _ = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    angle = np.arctan2(mesh.vertices @ first, mesh.vertices @ second)
+    pieces = []
+    for middle in (0, 2 * np.pi / 3, 4 * np.pi / 3):
+        is_near = np.abs((angle - middle + np.pi) % (2 * np.pi) - np.pi) < np.pi / 3 + 0.25
+        pieces.append(Mesh(mesh.vertices + 0.03 * rng.normal(size=3), mesh.faces[is_near[mesh.faces].all(axis=1)]))
+    assert topology(joined(*pieces)).components == 3
+
+
 def test_vertices_of_the_coarser_piece_stay_as_they_are() -> None:
     side = 2 * np.sin(np.pi / 100)
     below = tube(100, 0, 0, side, jitter=2.0)

@@ -23,6 +23,7 @@ from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_out
 from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
+from kfmaps.geometry.outer_surface import outer_surface
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 
 EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
@@ -57,6 +58,8 @@ class Shape:
         Radius of ``shot``, in units of √area.
     extent : float or None
         √area before scaling; ``None`` for a point cloud.
+    given_faces : (f, 3) int64, or None
+        The faces as given, where ``mesh`` has others: through a point cloud, or around pieces that overlap.
 
     Examples
     --------
@@ -73,6 +76,7 @@ class Shape:
     laplacian: str = "robust"
     shot_radius: float | None = None
     extent: float | None = None
+    given_faces: np.ndarray | None = None
 
     __repr__ = short_repr
 
@@ -109,8 +113,8 @@ class Shape:
 
     @property
     def given_mesh(self) -> Mesh:
-        """The mesh without the faces that preparation adds to a point cloud."""
-        return Mesh(self.mesh.vertices) if self.extent is None else self.mesh
+        """The mesh with the faces that were given."""
+        return self.mesh if self.given_faces is None else Mesh(self.mesh.vertices, self.given_faces)
 
 
 class Descriptor(Protocol):
@@ -162,7 +166,7 @@ def prepare(
     report = progress or (lambda _stage, _done: None)
     timer = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
-    is_cloud = len(mesh.faces) == 0
+    is_cloud, given_faces = len(mesh.faces) == 0, None
     max_roughness = 0.24  # above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much
     # Edges of coarse meshes are as sharp as noise.
     noisy = not is_cloud and len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES
@@ -171,19 +175,20 @@ def prepare(
         cleaned = replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))
     unit = unit_area(cleaned.mesh)
     _check_size(unit, name, config)
-    _warn_of_cleaning(cleaned, name, noisy)
-    if is_cloud and config.descriptors.shot:
-        surface = surface_of_cloud(unit.vertices)
-        if surface is None:
-            text = (
-                "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
-                "right cannot be told apart: give three landmarks, or a mesh made from the points"
-            )
-            warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=2)
-        else:
-            mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
-            cleaned = clean_mesh(mesh, specks=True)
-            unit = unit_area(cleaned.mesh)
+    extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
+    surface = outer_surface(unit) if extent else surface_of_cloud(unit.vertices) if config.descriptors.shot else None
+    _warn_of_cleaning(cleaned, name, noisy, surface is not None and not is_cloud)
+    if is_cloud and config.descriptors.shot and surface is None:
+        text = (
+            "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
+            "right cannot be told apart: give three landmarks, or a mesh made from the points"
+        )
+        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=2)
+    if surface is not None:
+        given_faces, extent = mesh.faces, extent and extent * float(np.sqrt(surface_area(surface)))
+        mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
+        cleaned = clean_mesh(mesh, specks=True)
+        unit = unit_area(cleaned.mesh)
     laplacian, radius = config.basis.laplacian, config.descriptors.shot_radius
     size, local = config.n_eigenfunctions, None
     tolerance = EXACT if len(unit.vertices) <= EXACT_EIGENPAIRS else LOOSE_TOLERANCE
@@ -194,8 +199,8 @@ def prepare(
         with limit_threads(config.threads), timer("SHOT"):
             local = _local_descriptors(unit, basis, radius, lambda d: timer.report("SHOT", min(d, 0.99)))
     radius = None if local is None else radius
-    extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
-    shape = Shape(Mesh(unit.vertices, mesh.faces), basis, local, name, timer.seconds, laplacian, radius, extent)
+    made = Mesh(unit.vertices, mesh.faces)
+    shape = Shape(made, basis, local, name, timer.seconds, laplacian, radius, extent, given_faces)
     if cleaned.whole:
         return shape
     mass = np.zeros(len(mesh.vertices))
@@ -263,8 +268,8 @@ def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
     return Mesh(vertices, mesh.faces)
 
 
-def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool) -> None:
-    """Warn once of what is connected, left out, turned or smoothed."""
+def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, joined: bool) -> None:
+    """Warn once of what is connected, left out, turned, smoothed or joined."""
     welded = "points in one place count as one" if len(cleaned.mesh.faces) == 0 else "vertices on seams are connected"
     changes = [f"{cleaned.n_welded} {welded}"] * bool(cleaned.n_welded)
     changes += [f"{cleaned.specks} specks are left out"] * bool(cleaned.specks)
@@ -272,6 +277,7 @@ def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool) -> None:
     if cleaned.turned is not None:
         changes.append(f"{cleaned.turned.sum()} of {len(cleaned.turned)} faces are turned outward")
     changes += ["noisy vertices are projected to a smooth surface"] * noisy
+    changes += ["pieces that overlap count as the surface around them"] * joined
     if changes:
         warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=3)
 

@@ -24,6 +24,8 @@ _MAX_ROUNDING = 0.1
 """Distance up to which two open edges coincide, over the length of the shortest one at their ends."""
 _MAX_GAP, _MAX_GAP_OF_BODY = 0.5, 0.01
 """Widest gap between two pieces that counts as a seam, over the length of an open edge there, and over √area."""
+_MIN_SEAM = 0.4
+"""Least share of the open ends of one of two pieces that lie along seams. Borders of pieces that overlap only cross."""
 
 
 def weld_vertices(mesh: Mesh) -> np.ndarray:
@@ -129,9 +131,12 @@ def _weld_along(mesh: Mesh, edges: np.ndarray, corners: np.ndarray, piece: np.nd
     vertex, end, distance = vertex[is_along], end[is_along], distance[is_along]
     order = np.lexsort((distance, vertex))
     order = order[np.diff(vertex[order], prepend=-1) > 0]  # the nearest edge of each vertex
+    vertex, end = vertex[order], end[order]
     onto, is_reached = np.arange(n), np.zeros(n, dtype=bool)
-    onto[vertex[order]] = end[order]
-    is_reached[vertex[order]] = is_reached[end[order]] = True
+    is_reached[vertex] = is_reached[end] = True
+    share = np.bincount(piece_of[ends], is_reached[ends]) / np.bincount(piece_of[ends]).clip(1)
+    is_seam = (piece_of[vertex] == piece_of[end]) | (share[piece_of[[vertex, end]]].max(axis=0) >= _MIN_SEAM)
+    onto[vertex[is_seam]] = end[is_seam]
     stays = np.setdiff1d(ends, edges[is_reached[edges].all(axis=1)])  # of these no edge lies along another as a whole
     onto[stays] = stays
     while (onto[onto] != onto).any():

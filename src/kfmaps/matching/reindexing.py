@@ -9,6 +9,7 @@ import numpy as np
 from kfmaps._arrays import Array, check, refuse, to_numpy
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.clean import CleanedMesh
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.shape import Shape
 
@@ -92,6 +93,11 @@ class VertexReindexing:
 
     def given_precise_map(self, places: PointMap) -> PointMap:
         """Return points in triangles of the cleaned source as points in triangles of the given one."""
+        given, cleaned = self.given[0], self.source.mesh
+        if given.given_faces is not None:
+            points = np.einsum("ni,nij->nj", places.weights, cleaned.vertices[cleaned.faces[places.faces]])
+            nearest = closest_points(points, given.mesh.vertices, given.given_faces)
+            return PointMap(nearest.faces[self.clean_t.to_clean], nearest.weights[self.clean_t.to_clean])
         faces, weights, turned = self.clean_s.faces_to_original[places.faces], places.weights, self.clean_s.turned
         if self.clean_s.corners is not None:
             weights = np.einsum("ni,nij->nj", weights, self.clean_s.corners[places.faces])

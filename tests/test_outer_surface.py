@@ -1,0 +1,124 @@
+"""Pieces that overlap are matched as the closed surface around them."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import blob, joined, small_fit
+from kfmaps._arrays import KfmapsWarning
+from kfmaps.datasets import sphere
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.fmap.zoomout import ZoomOut
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.geometry.outer_surface import _is_in_touching_pieces, outer_surface
+from kfmaps.geometry.topology import topology
+from kfmaps.matching.match import match
+from kfmaps.shape import prepare
+
+GUARDS = ("kfmaps.geometry.outer_surface", "kfmaps.shape", "kfmaps.matching.reindexing")
+
+SMALL = small_fit(20, 40, 40, 60, refinement=ZoomOut(start=10, stop=40, step=10))
+MARKS = np.array([[5, 5], [100, 110], [200, 190], [300, 290]])
+
+
+def overlapping(mesh: Mesh, width: float = 0.35) -> tuple[Mesh, np.ndarray]:
+    """Two pieces, each closed by a cone that ends inside the other; and the vertex that each was, −1 for tips."""
+    height = mesh.vertices[mesh.faces].mean(axis=1)[:, 0]
+    pieces, was = [], []
+    for side in (1, -1):
+        faces = mesh.faces[side * height > -width / 2]
+        used, numbers = np.unique(faces, return_inverse=True)
+        numbers = numbers.reshape(-1, 3)
+        edges = np.concatenate([numbers[:, [0, 1]], numbers[:, [1, 2]], numbers[:, [2, 0]]])
+        edges = edges[~(edges[:, None] == edges[None, :, ::-1]).all(axis=2).any(axis=1)]  # of the border
+        tip = [-side * (width + 0.1), 0, 0]
+        cone = np.column_stack([edges[:, ::-1], np.full(len(edges), len(used))])
+        pieces.append(Mesh(np.vstack([mesh.vertices[used], tip]), np.vstack([numbers, cone])))
+        was.append(np.append(used, -1))
+    return joined(*pieces), np.concatenate(was)
+
+
+@pytest.fixture(scope="module")
+def pieces() -> tuple[Mesh, np.ndarray]:
+    return overlapping(blob(900))
+
+
+def test_the_surface_around_pieces_is_closed_and_has_their_vertices(pieces) -> None:
+    mesh, was = pieces
+    assert topology(mesh).components == 2
+    scale = np.sqrt(surface_area(mesh))
+    surface = outer_surface(unit_area(mesh))
+    assert surface is not None
+    counts = topology(surface)
+    assert (counts.components, counts.is_closed, counts.genus) == (1, True, 0)
+    np.testing.assert_allclose(scale * np.sqrt(surface_area(surface)), np.sqrt(surface_area(blob(900))), rtol=0.02)
+    assert not np.isin(np.flatnonzero(was < 0), surface.faces).any()  # the tips are inside
+    assert len(np.unique(was[np.unique(surface.faces)])) > 0.95 * 900
+
+
+def test_one_piece_and_pieces_that_lie_apart_stay_as_they_are(pieces) -> None:
+    mesh, _ = pieces
+    assert outer_surface(unit_area(blob(900))) is None
+    halves = np.arange(len(mesh.vertices)) > mesh.faces[: len(mesh.faces) // 2].max()
+    apart = mesh.vertices + 1.5 * (halves[:, None] - 0.5) * [[-1.0, 0, 0]]
+    assert outer_surface(unit_area(Mesh(apart, mesh.faces))) is None
+    ball = sphere(900)
+    length = np.linalg.norm(ball.vertices[ball.faces] - ball.vertices[np.roll(ball.faces, 1, axis=1)], axis=2).mean()
+    for gap, is_touching in ((0.5, True), (0.9, True), (1.2, False)):
+        balls = unit_area(joined(ball, Mesh(ball.vertices + np.array([2 + gap * length, 0, 0]), ball.faces)))
+        assert _is_in_touching_pieces(balls) == is_touching
+        assert outer_surface(balls) is None  # which is two spheres
+    eyes = joined(blob(900), *(Mesh(0.1 * blob(100).vertices + x, blob(100).faces) for x in ([0.9, 0, 0], [0, 0.9, 0])))
+    assert outer_surface(unit_area(eyes)) is None  # nearly all is in one piece
+
+
+def test_a_shape_in_pieces_keeps_its_vertices_faces_and_extent(pieces) -> None:
+    mesh, _ = pieces
+    with pytest.warns(KfmapsWarning, match="pieces that overlap count as the surface around them"):
+        shape = prepare(Mesh(7 * mesh.vertices, mesh.faces), SMALL)
+    np.testing.assert_array_equal(shape.given_faces, mesh.faces)
+    np.testing.assert_array_equal(shape.given_mesh.faces, mesh.faces)
+    assert len(shape.mesh.vertices) == len(shape.basis.functions) == len(mesh.vertices)
+    assert shape.extent is not None
+    np.testing.assert_allclose(shape.extent, 7 * np.sqrt(surface_area(blob(900))), rtol=0.02)
+    np.testing.assert_allclose(surface_area(shape.cleaned[0].mesh), 1, rtol=1e-9)
+
+
+@pytest.mark.parametrize("is_source", [True, False])
+def test_a_body_in_pieces_is_matched_as_the_body(pieces, is_source) -> None:
+    mesh, was = pieces
+    whole, real = blob(900, twist=0.4), was >= 0
+    marks = MARKS.copy()
+    column = 0 if is_source else 1
+    marks[:, column] = [np.flatnonzero(was == vertex)[0] for vertex in MARKS[:, column]]
+    pair = (mesh, whole) if is_source else (whole, mesh)
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
+        found = match(*pair, SMALL, landmarks=marks)
+    clean = match(*((blob(900), whole) if is_source else (whole, blob(900))), SMALL, landmarks=MARKS)
+    truth = clean.target_to_source
+    if is_source:
+        images = was[found.target_to_source]
+        assert (images >= 0).mean() > 0.95
+        errors = geodesic_errors(blob(900), np.maximum(images, 0), truth)[images >= 0]
+    else:
+        errors = geodesic_errors(whole, found.target_to_source[real], truth[was[real]])
+    assert errors.mean() < 0.03
+    places = found.precise()
+    assert places.faces.max() < len(pair[0].faces)
+    positions = np.einsum("ni,nij->nj", places.weights, pair[0].vertices[pair[0].faces[places.faces]])
+    nearest = np.linalg.norm(positions - pair[0].vertices[found.target_to_source], axis=1)
+    rows = real if not is_source else slice(None)
+    assert np.median(nearest[rows]) < 0.1
+
+
+def test_registered_parts_know_their_size(pieces) -> None:
+    mesh, _ = pieces
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
+        one, other = prepare(mesh, SMALL), prepare(replace(mesh, vertices=3 * mesh.vertices), SMALL)
+    assert one.extent is not None
+    assert other.extent is not None
+    np.testing.assert_allclose(other.extent, 3 * one.extent, rtol=1e-6)
