@@ -107,6 +107,11 @@ def test_a_body_in_pieces_is_matched_as_the_body(pieces, is_source) -> None:
     else:
         errors = geodesic_errors(whole, found.target_to_source[real], truth[was[real]])
     assert errors.mean() < 0.03
+    if not is_source:
+        assert found._reindexing is not None
+        inside = found._reindexing.clean_t.unreferenced
+        assert inside.sum() > 20
+        assert np.median(found.local_confidence[inside]) > 0.2
     places = found.precise()
     assert places.faces.max() < len(pair[0].faces)
     positions = np.einsum("ni,nij->nj", places.weights, pair[0].vertices[pair[0].faces[places.faces]])

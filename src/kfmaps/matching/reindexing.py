@@ -114,16 +114,20 @@ class VertexReindexing:
 
     def given_overlap(self, source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return probabilities (m_s,), (m_t,) for the given shapes, (n_s,), (n_t,): 0 at vertices of no face."""
-        return _at_given(source, self.clean_s), _at_given(target, self.clean_t)
+        return _at_given(source, self.clean_s, self.given[0]), _at_given(target, self.clean_t, self.given[1])
 
     def given_confidence(self, confidence: np.ndarray) -> np.ndarray:
         """Return the local confidence (m_t,) for the given target, (n_t,): 0 at vertices of no face."""
-        return _at_given(confidence, self.clean_t)
+        return _at_given(confidence, self.clean_t, self.given[1])
 
 
-def _at_given(values: np.ndarray, cleaned: CleanedMesh) -> np.ndarray:
-    """Return values at the cleaned vertices, (m,), for the given ones, (n,): 0 at vertices of no face."""
-    return np.where(cleaned.unreferenced, 0.0, values[cleaned.to_clean])
+def _at_given(values: np.ndarray, cleaned: CleanedMesh, given: Shape) -> np.ndarray:
+    """Return values at the cleaned vertices, (m,), for the given ones, (n,): 0 at vertices of no face.
+
+    Vertices inside a surface that preparation has made around pieces have the value of the nearest one.
+    """
+    is_out = cleaned.unreferenced if given.given_faces is None or len(given.given_faces) == 0 else False
+    return np.where(is_out, 0.0, values[cleaned.to_clean])
 
 
 def reindexing(source: Shape, target: Shape, divided: bool = False) -> VertexReindexing:
