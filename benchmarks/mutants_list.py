@@ -29,6 +29,12 @@ MUTANTS = tuple(
         ("(rank[vertex] < rank[end])", "(rank[vertex] > rank[end])", "test_cleaning"),
         ("_MAX_GAP * mean_length[vertex])", "_MAX_GAP / mean_length[vertex])", "test_cleaning"),
         ("edges[is_reached[edges].all(axis=1)]", "edges[is_reached[edges].any(axis=1)]", "test_cleaning"),
+        ("max(axis=0) >= _MIN_SEAM)", "max(axis=0) >= 0)", "test_cleaning"),
+        (
+            "mesh.vertices + _DEPTH * vertex_normals(mesh)",
+            "mesh.vertices - _DEPTH * vertex_normals(mesh)",
+            "test_outer_surface",
+        ),
         ("axis=1) <= reach[b]", "axis=1) <= 3 * reach[b]", "test_cleaning"),
         # kernel
         ("[None, :] - 2 * (X @ Y.T)", "[None, :] - (X @ Y.T)", KERNEL),

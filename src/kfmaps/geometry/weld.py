@@ -43,15 +43,15 @@ def weld_vertices(mesh: Mesh) -> np.ndarray:
         return unique_vertices(mesh.vertices)
     proper = mesh.faces[proper_faces(mesh.faces)]
     edges, _ = _open_edges(proper, n)
-    welded = _weld_ends(edges, _same_positions(mesh, edges))
-    piece = component_labels(n, *half_edges(welded[proper]).T)[1]
-    edges, _ = _open_edges(welded[proper], n)
+    exact = _weld_ends(edges, _same_positions(mesh, edges))
+    edges, _ = _open_edges(exact[proper], n)
     if len(edges) == 0:
-        return welded
-    welded = _weld_ends(edges, _rounded_positions(mesh, edges))[welded]
+        return exact
+    welded = _weld_ends(edges, _rounded_positions(mesh, edges))[exact]
     edges, owner = _open_edges(welded[proper], n)
     if len(edges) == 0:
         return welded
+    piece = component_labels(n, *half_edges(exact[proper]).T)[1]
     return _weld_along(mesh, edges, welded[proper[owner]], piece[proper[owner, 0]])[welded]
 
 
