@@ -22,7 +22,7 @@ from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distance
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.geometry.subdivision import divide_faces
 from kfmaps.geometry.topology import topology
-from kfmaps.geometry.weld import _MAX_GAP, _MAX_GAP_OF_BODY, _MAX_ROUNDING, weld_vertices
+from kfmaps.geometry.weld import _MAX_GAP, _MAX_GAP_OF_BODY, _MAX_ROUNDING, _pairs_within, weld_vertices
 from kfmaps.matching.match import match
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import prepare
@@ -254,6 +254,13 @@ def test_a_short_edge_keeps_its_ends_apart() -> None:
         other = np.array([[0.0, 0.05, 0], [1, 0.05, 0], [0, 0.05 + height, 0]])
         pair = Mesh(np.vstack([one, other]), np.array([[0, 2, 1], [3, 4, 5]]))
         assert (weld_vertices(pair) != np.arange(6)).sum() == n_welded
+
+
+def test_edges_much_longer_than_those_around_are_passed_over() -> None:
+    """So that random faces do not take a time that grows with the square of their number."""
+    points = np.random.default_rng(0).uniform(size=(300, 3))
+    centre, point = _pairs_within(points[:2], np.array([2.0, 1e-6]), points)
+    np.testing.assert_array_equal((centre, point), ([1], [1]))
 
 
 def test_a_thin_face_on_a_border_does_not_collapse() -> None:

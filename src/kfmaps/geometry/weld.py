@@ -72,12 +72,12 @@ def _same_positions(mesh: Mesh, edges: np.ndarray) -> np.ndarray:
 
 def _rounded_positions(mesh: Mesh, edges: np.ndarray) -> np.ndarray:
     """Return the first of the ends of ``edges`` at the position of each, (n,), up to rounding."""
-    n, ends = len(mesh.vertices), np.unique(edges)
-    reach = np.full(n, np.inf)
-    np.minimum.at(reach, edges, _MAX_ROUNDING * _lengths(mesh, edges)[:, None])
+    n, position = len(mesh.vertices), _same_positions(mesh, edges)
+    reach, ends = np.full(n, np.inf), np.unique(position[edges])
+    np.minimum.at(reach, position[edges], _MAX_ROUNDING * _lengths(mesh, edges)[:, None])
     a, b = (ends[i] for i in _pairs_within(mesh.vertices[ends], reach[ends], mesh.vertices[ends]))
     is_close = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1) <= reach[b]
-    return _firsts(component_labels(n, a[is_close], b[is_close])[1])
+    return _firsts(component_labels(n, a[is_close], b[is_close])[1])[position]
 
 
 def _weld_ends(edges: np.ndarray, position: np.ndarray) -> np.ndarray:
@@ -145,12 +145,16 @@ def _weld_along(mesh: Mesh, edges: np.ndarray, corners: np.ndarray, piece: np.nd
 
 
 def _pairs_within(centres: np.ndarray, radii: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the numbers of each centre and point that are within the radius of the centre: (p,), (p,)."""
-    tree, pairs = KDTree(points), []
-    for block in blocks(len(centres), 50_000):  # lists take much more memory than arrays
-        found = tree.query_ball_point(centres[block], radii[block])
-        centre = np.repeat(np.arange(block.start, block.start + len(found)), [len(one) for one in found])
-        pairs.append((centre, np.concatenate(found).astype(np.int64)))
+    """Return the numbers of each centre and point that are within the radius of the centre: (p,), (p,).
+
+    A centre with more than 200 points has none: edges that are so much longer than those around are no surface.
+    """
+    tree = KDTree(points)
+    near = np.flatnonzero(tree.query_ball_point(centres, radii, return_length=True) <= 200)
+    pairs = [(near[:0], near[:0])]
+    for block in blocks(len(near), 50_000):  # lists take much more memory than arrays
+        found = tree.query_ball_point(centres[near[block]], radii[near[block]])
+        pairs.append((np.repeat(near[block], [len(one) for one in found]), np.concatenate(found).astype(np.int64)))
     return np.concatenate([pair[0] for pair in pairs]), np.concatenate([pair[1] for pair in pairs])
 
 
