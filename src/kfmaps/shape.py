@@ -112,6 +112,11 @@ class Shape:
         return replace(shape, mesh=cleaned.mesh, basis=basis, shot=local), cleaned
 
     @property
+    def is_outer_surface(self) -> bool:
+        """Whether the faces are those of the closed surface around given pieces."""
+        return self.given_faces is not None and len(self.given_faces) > 0
+
+    @property
     def given_mesh(self) -> Mesh:
         """The mesh with the faces that were given."""
         return self.mesh if self.given_faces is None else Mesh(self.mesh.vertices, self.given_faces)
@@ -157,10 +162,10 @@ def prepare(
 ) -> Shape:
     """Compute what depends on one shape alone, so that matches with many others share it.
 
-    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are
-    left out (:mod:`kfmaps.geometry.clean`), and much noise is smoothed
-    (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is
-    a point cloud. ``config``: its basis, descriptor and refinement settings count.
+    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out
+    (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), and
+    pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`). A warning says so. ``mesh``: in any unit;
+    without faces it is a point cloud. ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)

@@ -111,9 +111,8 @@ def _weld_along(mesh: Mesh, edges: np.ndarray, corners: np.ndarray, piece: np.nd
     rank[np.lexsort((mean_length, piece_length[piece_of]))] = np.arange(n)
 
     widest = np.minimum(_MAX_GAP * length, _MAX_GAP_OF_BODY * np.sqrt(surface_area(mesh)))
-    n_parts = (
-        np.ceil(length / max(length.mean(), 1e-300)).clip(1).astype(np.int64)
-    )  # of long edges, whose balls hold too much
+    # Long edges are divided, since the balls around them hold too many vertices.
+    n_parts = np.ceil(length / max(length.mean(), 1e-300)).clip(1).astype(np.int64)
     edge = np.repeat(np.arange(len(edges)), n_parts)
     position = (index_ranges(np.zeros(len(edges), dtype=np.int64), n_parts) + 0.5) / n_parts[edge]
     start, along = vertices[edges[:, 0]], vertices[edges[:, 1]] - vertices[edges[:, 0]]
@@ -147,7 +146,7 @@ def _weld_along(mesh: Mesh, edges: np.ndarray, corners: np.ndarray, piece: np.nd
 def _pairs_within(centres: np.ndarray, radii: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the numbers of each centre and point that are within the radius of the centre: (p,), (p,).
 
-    A centre with more than 200 points has none: edges that are so much longer than those around are no surface.
+    A centre with more than 200 points has none: an edge so much longer than those around is no border of a surface.
     """
     tree = KDTree(points)
     near = np.flatnonzero(tree.query_ball_point(centres, radii, return_length=True) <= 200)

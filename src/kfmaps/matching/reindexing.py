@@ -94,9 +94,9 @@ class VertexReindexing:
     def given_precise_map(self, places: PointMap) -> PointMap:
         """Return points in triangles of the cleaned source as points in triangles of the given one."""
         given, cleaned = self.given[0], self.source.mesh
-        if given.given_faces is not None:
+        if given.is_outer_surface:
             points = np.einsum("ni,nij->nj", places.weights, cleaned.vertices[cleaned.faces[places.faces]])
-            nearest = closest_points(points, given.mesh.vertices, given.given_faces)
+            nearest = closest_points(points, given.mesh.vertices, given.given_mesh.faces)
             return PointMap(nearest.faces[self.clean_t.to_clean], nearest.weights[self.clean_t.to_clean])
         faces, weights, turned = self.clean_s.faces_to_original[places.faces], places.weights, self.clean_s.turned
         if self.clean_s.corners is not None:
@@ -126,8 +126,8 @@ def _at_given(values: np.ndarray, cleaned: CleanedMesh, given: Shape) -> np.ndar
 
     Vertices inside a surface that preparation has made around pieces have the value of the nearest one.
     """
-    is_out = cleaned.unreferenced if given.given_faces is None or len(given.given_faces) == 0 else False
-    return np.where(is_out, 0.0, values[cleaned.to_clean])
+    values = values[cleaned.to_clean]
+    return values if given.is_outer_surface else np.where(cleaned.unreferenced, 0.0, values)
 
 
 def reindexing(source: Shape, target: Shape, divided: bool = False) -> VertexReindexing:

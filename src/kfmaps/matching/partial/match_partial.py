@@ -80,7 +80,7 @@ def match_partial(
         _slanted_functional_map(points, source, target, scale if is_target else 1 / scale),
         local_confidence(*meshes, points, sized=True),
         # Where a vertex has no counterpart this is the nearest point that could be one.
-        precise_map=task.pair.given_precise_map(places),
+        precise_map=task.pair.given_precise_map(places) if len(task.meshes[0].faces) else None,
         verdict=verdict(*calibrated),
         confidence=probability(*calibrated),
         score=MatchScore(
