@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.connectivity import component_labels, proper_faces, renumbering
+from kfmaps.geometry.connectivity import proper_faces, renumbering
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
-from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.mesh import Mesh, component_areas
 from kfmaps.geometry.subdivision import interpolating_subdivision
 from kfmaps.geometry.weld import weld_vertices
 
@@ -123,9 +123,7 @@ def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:
     """Return which faces lie on no speck, (f,) bool, and the number of specks."""
-    n, faces = len(mesh.vertices), mesh.faces
-    count, label = component_labels(n, faces[:, :2].ravel(), faces[:, 1:].ravel())
-    component = label[faces[:, 0]]
-    areas = np.bincount(component, face_areas(mesh), minlength=count)
+    label, areas = component_areas(mesh)
+    component = label[mesh.faces[:, 0]]
     is_speck = areas < _MAX_SPECK_AREA * areas.max(initial=0.0)
-    return ~is_speck[component], int(is_speck[np.bincount(component, minlength=count) > 0].sum())
+    return ~is_speck[component], int(is_speck[np.bincount(component, minlength=len(areas)) > 0].sum())

@@ -129,6 +129,13 @@ MIRROR = np.array([-1.0, 1.0, 1.0])
 """Factors of the coordinates that reflect positions in the plane x = 0."""
 
 
+def component_areas(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Return the connected component of each vertex, (n,), and the area of each component, (c,)."""
+    faces = mesh.faces
+    count, label = component_labels(len(mesh.vertices), faces[:, :2].ravel(), faces[:, 1:].ravel())
+    return label, np.bincount(label[faces[:, 0]], face_areas(mesh), minlength=count)
+
+
 def mirror_mesh(mesh: Mesh) -> Mesh:
     """Return the mirror image in the plane x = 0, with the same vertices and faces that still look outward."""
     return Mesh(mesh.vertices * MIRROR, mesh.faces[:, ::-1])

@@ -7,8 +7,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.cloud_surface import surface_of_cloud
-from kfmaps.geometry.connectivity import component_labels, half_edges, mesh_edges, unique_vertices
-from kfmaps.geometry.mesh import Mesh, face_areas, vertex_normals
+from kfmaps.geometry.connectivity import component_labels, mesh_edges, unique_vertices
+from kfmaps.geometry.mesh import Mesh, component_areas, vertex_normals
 
 _WHOLE_AREA = 0.95
 """Share of the area above which one piece, pieces that touch, or one closed surface are taken for the whole shape."""
@@ -32,7 +32,10 @@ def outer_surface(mesh: Mesh) -> Mesh | None:
     is_outer &= unique_vertices(mesh.vertices) == np.arange(len(mesh.vertices))
     outer = np.flatnonzero(is_outer)
     surface = surface_of_cloud(mesh.vertices[outer])
-    if surface is None or _largest_share(surface) < _WHOLE_AREA:
+    if surface is None:
+        return None
+    areas = component_areas(surface)[1]
+    if areas.max() < _WHOLE_AREA * areas.sum():
         return None
     vertices = mesh.vertices.copy()
     vertices[outer] = surface.vertices
@@ -41,21 +44,12 @@ def outer_surface(mesh: Mesh) -> Mesh | None:
 
 def _is_in_touching_pieces(mesh: Mesh) -> bool:
     """Return whether most of a mesh is in pieces that are no farther from each other than an edge is long."""
-    if _largest_share(mesh) > _WHOLE_AREA:
+    label, areas = component_areas(mesh)
+    if areas.max() > _WHOLE_AREA * areas.sum():
         return False
     n, edges = len(mesh.vertices), mesh_edges(mesh.faces, len(mesh.vertices))[0]
-    label = component_labels(n, *edges.T)[1]
     length = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1).mean()
     neighbours = np.asarray(KDTree(mesh.vertices).query(mesh.vertices, k=10, distance_upper_bound=length)[1])
     vertex, column = np.nonzero(neighbours < n)
-    other = neighbours[vertex, column]
-    pieces = component_labels(n, np.concatenate([label, label[vertex]]), np.concatenate([label, label[other]]))[1]
-    area = np.bincount(pieces[label[mesh.faces[:, 0]]], face_areas(mesh))
-    return bool(area.max() >= _WHOLE_AREA * area.sum())
-
-
-def _largest_share(mesh: Mesh) -> float:
-    """Return the share of the area that the largest component of a mesh has."""
-    label = component_labels(len(mesh.vertices), *half_edges(mesh.faces).T)[1]
-    area = np.bincount(label[mesh.faces[:, 0]], face_areas(mesh))
-    return float(area.max() / area.sum())
+    pieces = component_labels(len(areas), label[vertex], label[neighbours[vertex, column]])[1]
+    return bool(np.bincount(pieces, areas).max() >= _WHOLE_AREA * areas.sum())
