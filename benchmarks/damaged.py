@@ -144,10 +144,18 @@ def _spikes(mesh: Mesh, rng: np.random.Generator) -> Damaged:
     return Mesh(vertices, mesh.faces), mesh.vertices
 
 
-def _holes(mesh: Mesh, rng: np.random.Generator) -> Damaged:
-    """Ten round holes, each of about half a per cent of the area."""
-    away = kfmaps.geodesic_distances(mesh, rng.choice(len(mesh.vertices), 10, replace=False)).min(axis=0)
-    return Mesh(mesh.vertices, mesh.faces[(away[mesh.faces] > np.sqrt(0.005 / np.pi)).all(axis=1)]), mesh.vertices
+def _holes(count: int, area: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    """Round holes, each of about the ``area``."""
+
+    def damage(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+        away = kfmaps.geodesic_distances(mesh, rng.choice(len(mesh.vertices), count, replace=False)).min(axis=0)
+        return Mesh(mesh.vertices, mesh.faces[(away[mesh.faces] > np.sqrt(area / np.pi)).all(axis=1)]), mesh.vertices
+
+    return damage
+
+
+def _missing_faces(share: float) -> Callable[[Mesh, np.random.Generator], Damaged]:
+    return lambda mesh, rng: (Mesh(mesh.vertices, mesh.faces[rng.random(len(mesh.faces)) > share]), mesh.vertices)
 
 
 def _bad_edges(mesh: Mesh, rng: np.random.Generator) -> Damaged:
@@ -209,7 +217,10 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "tenth turned": _turned_over(0.1),
     "two-sided": _two_sided,
     "spikes": _spikes,
-    "holes": _holes,
+    "10 holes": _holes(10, 0.005),
+    "40 small holes": _holes(40, 0.001),
+    "faces missing": _missing_faces(0.1),
+    "more missing": _missing_faces(0.3),
     "bad edges": _bad_edges,
     "specks": _specks,
     "floor": _floor,

@@ -22,6 +22,7 @@ from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward
 from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
+from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.outer_surface import outer_surface
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
@@ -59,7 +60,8 @@ class Shape:
     extent : float or None
         √area before scaling; ``None`` for a point cloud.
     given_faces : (f, 3) int64, or None
-        The faces as given, where ``mesh`` has others: through a point cloud, or around pieces that overlap.
+        The faces as given, where ``mesh`` has others: through a point cloud, around pieces that overlap, or, after
+        the given ones, in small holes.
 
     Examples
     --------
@@ -112,9 +114,15 @@ class Shape:
         return replace(shape, mesh=cleaned.mesh, basis=basis, shot=local), cleaned
 
     @property
-    def is_outer_surface(self) -> bool:
-        """Whether the faces are those of the closed surface around given pieces."""
+    def is_repaired(self) -> bool:
+        """Whether the faces are not all given: around pieces that overlap, or also in small holes."""
         return self.given_faces is not None and len(self.given_faces) > 0
+
+    @property
+    def is_outer_surface(self) -> bool:
+        """Whether the faces are those of the closed surface around given pieces, some of whose vertices are inside."""
+        given = self.given_faces
+        return given is not None and self.is_repaired and not np.array_equal(self.mesh.faces[: len(given)], given)
 
     @property
     def given_mesh(self) -> Mesh:
@@ -164,8 +172,9 @@ def prepare(
 
     Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out
     (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), and
-    pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`). A warning says so. ``mesh``: in any unit;
-    without faces it is a point cloud. ``config``: its basis, descriptor and refinement settings count.
+    pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`) or else small holes are filled
+    (:mod:`kfmaps.geometry.holes`). A warning says so. ``mesh``: in any unit; without faces it is a point cloud.
+    ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
@@ -181,8 +190,8 @@ def prepare(
     unit = unit_area(cleaned.mesh)
     _check_size(unit, name, config)
     extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
-    surface = outer_surface(unit) if extent else surface_of_cloud(unit.vertices) if config.descriptors.shot else None
-    _warn_of_cleaning(cleaned, name, noisy, surface is not None and not is_cloud)
+    surface, repair = _repaired(unit, config.descriptors.shot)
+    _warn_of_cleaning(cleaned, name, noisy, repair)
     if is_cloud and config.descriptors.shot and surface is None:
         text = (
             "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
@@ -191,8 +200,8 @@ def prepare(
         warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=2)
     if surface is not None:
         given_faces, extent = mesh.faces, extent and extent * float(np.sqrt(surface_area(surface)))
-        mesh = Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
-        cleaned = clean_mesh(mesh, specks=True)
+        mesh = _with_faces_of(surface, mesh, cleaned)
+        cleaned = face_outward(clean_mesh(mesh, specks=True))
         unit = unit_area(cleaned.mesh)
     laplacian, radius = config.basis.laplacian, config.descriptors.shot_radius
     size, local = config.n_eigenfunctions, None
@@ -261,6 +270,18 @@ def _renumber(basis: Basis, rows: np.ndarray, mass: Array) -> Basis:
     return Basis(basis.eigenvalues, take(basis.functions.T, rows, axis=1).T, mass)
 
 
+def _with_faces_of(surface: Mesh, mesh: Mesh, cleaned: CleanedMesh) -> Mesh:
+    """Return the given ``mesh`` with the faces of the ``surface`` that is made of what is left when it is ``cleaned``.
+
+    Where holes are filled it keeps its own faces, and with them its seams and specks.
+    """
+    f = len(cleaned.mesh.faces)
+    if f and np.array_equal(surface.faces[:f], cleaned.mesh.faces):
+        faces = np.concatenate([mesh.faces, cleaned.to_original[surface.faces[f:]]])
+        return Mesh(_scale_alike(mesh, cleaned, surface).vertices, faces)
+    return Mesh(surface.vertices[cleaned.to_clean], cleaned.to_original[surface.faces])
+
+
 def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
     """Move and scale all of ``mesh`` as its ``cleaned`` part was to become ``unit``."""
     centre = cleaned.mesh.vertices.mean(axis=0)
@@ -273,8 +294,22 @@ def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
     return Mesh(vertices, mesh.faces)
 
 
-def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, joined: bool) -> None:
-    """Warn once of what is connected, left out, turned, smoothed or joined."""
+def _repaired(mesh: Mesh, clouds: bool) -> tuple[Mesh | None, str]:
+    """Return the surface that is matched instead of a cleaned ``mesh``, or ``None``, and what is done to a mesh.
+
+    ``clouds``: whether a surface through the points of a point cloud is wanted.
+    """
+    if len(mesh.faces) == 0:
+        return (surface_of_cloud(mesh.vertices) if clouds else None), ""
+    surface = outer_surface(mesh)
+    if surface is not None:
+        return surface, "pieces that overlap count as the surface around them"
+    surface = fill_holes(mesh)
+    return surface, "" if surface is None else "small holes are filled"
+
+
+def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repair: str) -> None:
+    """Warn once of what is connected, left out, turned, smoothed or repaired."""
     welded = "points in one place count as one" if len(cleaned.mesh.faces) == 0 else "vertices on seams are connected"
     changes = [f"{cleaned.n_welded} {welded}"] * bool(cleaned.n_welded)
     changes += [f"{cleaned.specks} specks are left out"] * bool(cleaned.specks)
@@ -282,7 +317,7 @@ def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, joined: bool
     if cleaned.turned is not None:
         changes.append(f"{cleaned.turned.sum()} of {len(cleaned.turned)} faces are turned outward")
     changes += ["noisy vertices are projected to a smooth surface"] * noisy
-    changes += ["pieces that overlap count as the surface around them"] * joined
+    changes += [repair] * bool(repair)
     if changes:
         warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=3)
 

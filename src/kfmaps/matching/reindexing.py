@@ -94,7 +94,7 @@ class VertexReindexing:
     def given_precise_map(self, places: PointMap) -> PointMap:
         """Return points in triangles of the cleaned source as points in triangles of the given one."""
         given, cleaned = self.given[0], self.source.mesh
-        if given.is_outer_surface:
+        if given.is_repaired:
             points = np.einsum("ni,nij->nj", places.weights, cleaned.vertices[cleaned.faces[places.faces]])
             nearest = closest_points(points, given.mesh.vertices, given.given_mesh.faces)
             return PointMap(nearest.faces[self.clean_t.to_clean], nearest.weights[self.clean_t.to_clean])
