@@ -36,6 +36,12 @@ MUTANTS = tuple(
             "test_outer_surface",
         ),
         ("axis=1) <= reach[b]", "axis=1) <= 3 * reach[b]", "test_cleaning"),
+        # holes
+        ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
+        ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),
+        ("alignment >= _MIN_ALIGNMENT", "alignment >= -_MIN_ALIGNMENT", "test_holes"),
+        ("opening - left >= _MIN_SHARE * opening", "opening - left >= 0", "test_holes"),
+        ("min(detection.opening, 1.0))", "1 - min(detection.opening, 1.0))", "test_parts -k less_probable"),
         # kernel
         ("[None, :] - 2 * (X @ Y.T)", "[None, :] - (X @ Y.T)", KERNEL),
         ("return (X @ Y.T + self.offset) ** self.degree", "return (X @ Y.T - self.offset) ** self.degree", KERNEL),

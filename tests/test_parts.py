@@ -1,6 +1,6 @@
 """Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed and registered."""
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -404,7 +404,35 @@ def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
 
 def fake_match(word: str, confidence: float, scale: float = 0.85, energy: float | None = None) -> SimpleNamespace:
     score = SimpleNamespace(deformation_energy=energy)
-    return SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart(scale=scale), score=score)
+    return SimpleNamespace(verdict=word, confidence=confidence, partial=MatchPart("target", scale=scale), score=score)
+
+
+@dataclass
+class WholeMatch:
+    verdict: str = "sure"
+    confidence: float | None = 0.99
+    partial: MatchPart = field(default_factory=lambda: MatchPart(suspected=True))
+    score: Any = field(default_factory=lambda: SimpleNamespace(deformation_energy=0.1))
+
+
+@pytest.mark.parametrize(
+    ("which", "opening", "given", "expected"),
+    [
+        ("target", 0.04, 0.99, (0.9504, "sure")),
+        ("target", 0.12, 0.99, (0.8712, "likely")),
+        ("source", 2.0, 0.4, (0.0, "unlikely")),
+        ("target", 0.1, None, (None, "sure")),
+        ("none", 0.12, 0.99, (0.99, "sure")),  # both are open alike
+    ],
+)
+def test_a_match_as_wholes_is_less_probable_by_what_is_missing_of_one_shape(
+    monkeypatch, small, which, opening, given, expected
+):
+    parts_tried(monkeypatch, dict.fromkeys(("target", "source")))
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: WholeMatch(confidence=given))
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection(which, "open", opening))
+    found = match_module.match(small, small, AUTO)
+    assert (found.confidence, found.verdict) == (expected[0] and pytest.approx(expected[0]), expected[1])
 
 
 def parts_tried(monkeypatch: pytest.MonkeyPatch, answers: dict[str, Any]) -> list[str]:

@@ -17,7 +17,7 @@ from kfmaps.matching.score import (
     Scoring,
     candidate_score,
     landmark_support,
-    lower_by_registration,
+    lower_probability,
     part_landmark_cost,
     part_score,
     placement_score,
@@ -199,17 +199,17 @@ def test_the_steep_function_makes_no_map_sure() -> None:
     ],
 )
 def test_torn_area_lowers_the_probability(chance: Any, word: str, torn: float, lower: tuple[Any, str]) -> None:
-    found = lower_by_registration(chance, word, torn, False)
+    found = lower_probability(chance, word, torn, False)
     assert found[1] == lower[1]
     assert found[0] == pytest.approx(lower[0])
 
 
 def test_a_map_whose_registration_is_refused_is_not_sure() -> None:
     """It is "likely" at most; a word that says more stays, and a fit without a probability has none."""
-    assert lower_by_registration(1.0, "sure", 0.0, True) == (SCORE.refused_registration, "likely")
-    assert lower_by_registration(0.8, "likely", 0.5, True) == (pytest.approx(0.24), "unlikely")
-    assert lower_by_registration(1.0, "ambiguous", 0.0, True)[1] == "ambiguous"
-    assert lower_by_registration(None, "unchecked", 0.0, True) == (None, "unchecked")
+    assert lower_probability(1.0, "sure", 0.0, True) == (SCORE.refused_registration, "likely")
+    assert lower_probability(0.8, "likely", 0.5, True) == (pytest.approx(0.24), "unlikely")
+    assert lower_probability(1.0, "ambiguous", 0.0, True)[1] == "ambiguous"
+    assert lower_probability(None, "unchecked", 0.0, True) == (None, "unchecked")
 
 
 @pytest.mark.parametrize("errors", [[0.0], [0.05, 0.058, 0.06], [0.0] * 5 + [0.2], [0.0] * 5 + [9.0], [0.3, 0.3]])

@@ -27,7 +27,7 @@ from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE, deformation_cost, lower_by_registration, max_landmark_error, torn_score
+from kfmaps.matching.score import SCORE, deformation_cost, lower_probability, max_landmark_error, torn_score
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.accept import register_map
 from kfmaps.registration.evidence import MIN_ENERGY
@@ -116,7 +116,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         back_map = None if back_map is None else pair.given_functional_map(back_points, back_map, back=True)
     torn_area = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
     is_refused = final.fit is not None and not final.fit.accepted
-    confidence, verdict = lower_by_registration(found.confidence, found.verdict, torn_area, is_refused)
+    confidence, verdict = lower_probability(found.confidence, found.verdict, torn_area, is_refused)
     return task.result(
         final.target_to_source,
         refined.functional_map,

@@ -44,7 +44,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchPart
-from kfmaps.matching.score import SCORE
+from kfmaps.matching.score import SCORE, lower_probability
 from kfmaps.matching.search import retry, search_map
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
@@ -115,6 +115,23 @@ def _match_detected(
             return best
         part = _match_clear_part(task, detection)
         return part or _more_probable(best, _match_as(task, "both", detection.reason))
+    best = _match_open(task, which, detection, wholes, tried)
+    if best.partial.which != "none":
+        return best
+    # Nothing is known about what is missing of one shape.
+    confidence, verdict = lower_probability(best.confidence, best.verdict, min(detection.opening, 1.0))
+    return replace(best, confidence=confidence, verdict=verdict)
+
+
+def _match_open(
+    task: MatchTask,
+    which: Literal["source", "target"],
+    detection: PartDetection,
+    wholes: Callable[[MatchPart], Match],
+    tried: str,
+) -> Match:
+    """Return the most probable match of a shape that has long open boundaries and one that has shorter ones or none."""
+    has_search = task.config.search is not None
     if has_search and _may_be_whole(detection):
         part, best = _match_holed(task, which, detection, wholes)
     else:

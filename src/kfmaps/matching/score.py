@@ -566,17 +566,18 @@ def probability_word(chance: float, numbers: Calibration = SCORE.calibration) ->
     return "sure" if chance >= numbers.sure else "likely" if chance >= numbers.likely else "unlikely"
 
 
-def lower_by_registration(
-    chance: float | None, word: str, torn_area: float, is_refused: bool
+def lower_probability(
+    chance: float | None, word: str, area: float, is_refused: bool = False
 ) -> tuple[float | None, str]:
-    """Return the probability and the verdict of a map on all vertices, lowered by its registration.
+    """Return the probability and the verdict of a map on all vertices, lowered by what is wrong with it.
 
-    ``torn_area``: its torn share of the area, of which right maps that are "sure" have 5 % at most
-    (research/verdict.md); ``is_refused``: whether the registration would have made the map worse.
+    ``area``: share of the area that is torn, of which right maps that are "sure" have 5 % at most
+    (research/verdict.md), or that is missing of one shape; ``is_refused``: whether the registration would have made the
+    map worse.
     """
     if chance is None:
         return chance, word
-    chance *= (1.0 - torn_area) * (SCORE.refused_registration if is_refused else 1.0)
+    chance *= (1.0 - area) * (SCORE.refused_registration if is_refused else 1.0)
     return chance, word if word == "ambiguous" else probability_word(chance)
 
 
