@@ -120,7 +120,7 @@ def test_odd_mesh_is_warned_about_and_matched(made: types.SimpleNamespace, tmp_p
     words = (*words, "--preset", "single-fit", "-o", tmp_path / "m.npz")
     ran = run(*words)
     output = [line for line in ran.stderr.splitlines() if line.startswith("kfmaps: ")]
-    assert output == [f"kfmaps: warning: {tmp_path / 'loose.off'}: 1 vertices that no face uses; they are kept"]
+    assert output == [f"kfmaps: warning: {tmp_path / 'loose.off'}: 1 vertex that no face uses is kept"]
     points = load_map(tmp_path / "m.npz").target_to_source
     # The loose vertex is as good as the one nearest to it.
     twin = np.linalg.norm(mesh.vertices - 9, axis=1).argmin()

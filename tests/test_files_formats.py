@@ -261,7 +261,12 @@ def test_oddities_warn_and_are_kept(tmp_path: Path) -> None:
     with pytest.warns(KfmapsWarning) as output:
         same(MeshFile(read_mesh(tmp_path / "a.off")), torn.vertices, torn.faces.tolist())
     text = "\n".join(str(w.message) for w in output)
-    for part in ("1 boundary loop,", "1 duplicated vertex", "1 faces without area", "1 vertices that no face uses"):
+    for part in (
+        "1 boundary loop,",
+        "1 duplicated vertex",
+        "1 face without area is kept",
+        "1 vertex that no face uses is kept",
+    ):
         assert part in text
 
 
@@ -332,3 +337,12 @@ def test_a_vertex_without_a_position_is_put_between_its_neighbours(tmp_path: Pat
     write.write_bytes(format_ply(MeshFile(Mesh(places, mesh.faces))))
     with pytest.raises(InvalidInput, match="9 NaN or infinite"):
         read_mesh(write)
+
+
+def test_vertices_that_are_welded_are_not_counted_as_duplicated(tmp_path: Path) -> None:
+    """Rounded seams are welded too, so there are more of these than vertices in the same place."""
+    mesh = blob(60)
+    corners = mesh.vertices[mesh.faces.ravel()] + 1e-6 * np.random.default_rng(0).normal(size=(3 * len(mesh.faces), 3))
+    write_mesh(tmp_path / "soup.off", Mesh(corners, np.arange(len(corners)).reshape(-1, 3)))
+    with warnings.catch_warnings(action="error"):
+        read_mesh(tmp_path / "soup.off")

@@ -14,9 +14,9 @@ def percent(error: float | None, digits: int = 2) -> str:
     return "" if error is None else f"{100 * error:.{digits}f}"
 
 
-def plural(number: int, word: str) -> str:
-    """Return a number with its noun: "1 pair", "12 pairs"."""
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"
+def plural(number: int, word: str, words: str | None = None) -> str:
+    """Return a number with its noun: "1 pair", "12 pairs". ``words``: the plural, where it is no ``word`` and an s."""
+    return f"{number} {word}" if number == 1 else f"{number} {words or word + 's'}"
 
 
 def probability_text(probability: float) -> str:

@@ -15,6 +15,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import Array, KfmapsWarning, refuse, take
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._records import short_repr
+from kfmaps._texts import plural
 from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
@@ -310,10 +311,15 @@ def _repaired(mesh: Mesh, clouds: bool) -> tuple[Mesh | None, str]:
 
 def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repair: str) -> None:
     """Warn once of what is connected, left out, turned, smoothed or repaired."""
-    welded = "points in one place count as one" if len(cleaned.mesh.faces) == 0 else "vertices on seams are connected"
-    changes = [f"{cleaned.n_welded} {welded}"] * bool(cleaned.n_welded)
-    changes += [f"{cleaned.specks} specks are left out"] * bool(cleaned.specks)
-    changes += [f"{cleaned.doubled} second sides of faces are left out"] * bool(cleaned.doubled)
+    welded = ("vertex on a seam is connected", "vertices on seams are connected")
+    if len(cleaned.mesh.faces) == 0:
+        welded = ("point counts as one with another in its place", "points in one place count as one")
+    found: tuple[tuple[int, str, str], ...] = (
+        (cleaned.n_welded, welded[0], welded[1]),
+        (cleaned.specks, "speck is left out", "specks are left out"),
+        (cleaned.doubled, "second side of a face is left out", "second sides of faces are left out"),
+    )
+    changes = [plural(*one) for one in found if one[0]]
     if cleaned.turned is not None:
         changes.append(f"{cleaned.turned.sum()} of {len(cleaned.turned)} faces are turned outward")
     changes += ["noisy vertices are projected to a smooth surface"] * noisy

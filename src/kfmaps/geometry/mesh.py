@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, printable, refuse
+from kfmaps._texts import plural
 from kfmaps.geometry.connectivity import boundary_edges, component_labels
 from kfmaps.geometry.point_cloud import cloud_areas
 
@@ -201,7 +202,11 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
         raise refuse(name, "a surface with area", "zero area", "check that its faces are not collapsed")
     flat = int((areas <= 1e-14 * areas.max()).sum())
     unreferenced = int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum())
-    for count, what in ((flat, "faces without area"), (unreferenced, "vertices that no face uses")):
-        if count:
-            warnings.warn(f"{printable(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
+    found = (
+        (flat, "face without area is", "faces without area are"),
+        (unreferenced, "vertex that no face uses is", "vertices that no face uses are"),
+    )
+    for oddity in found:
+        if oddity[0]:
+            warnings.warn(f"{printable(name)}: {plural(*oddity)} kept", KfmapsWarning, stacklevel=2)
     return mesh

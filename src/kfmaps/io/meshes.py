@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, printable, refuse
+from kfmaps._texts import plural
 from kfmaps.geometry.clean import clean_mesh
+from kfmaps.geometry.connectivity import unique_vertices
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.geometry.topology import topology
 from kfmaps.io.atomic import write_bytes
@@ -143,7 +145,9 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     if len(mesh.faces) == 0:
         return
     counts = topology(mesh)
-    n_duplicated = counts.duplicated_vertices - clean_mesh(mesh).n_welded  # whoever welds the others reports them
+    cleaned, first = clean_mesh(mesh), unique_vertices(mesh.vertices)
+    is_welded = (cleaned.to_clean == cleaned.to_clean[first]) & ~cleaned.unreferenced  # who welds them reports them
+    n_duplicated = int(((first != np.arange(len(first))) & ~is_welded).sum())
     oddities = [
         (counts.components if counts.components > 1 else 0, "component", "components"),
         (counts.boundary_loops, "boundary loop", "boundary loops"),
@@ -152,7 +156,7 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
         (counts.inconsistent_edges, "inconsistently oriented edge", "inconsistently oriented edges"),
         (n_duplicated, "duplicated vertex", "duplicated vertices"),
     ]
-    message = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in oddities if count)
+    message = ", ".join(plural(*oddity) for oddity in oddities if oddity[0])
     if message:
         warnings.warn(f"{printable(name)}: {message}. All is kept as it is.", KfmapsWarning, stacklevel=4)
 
