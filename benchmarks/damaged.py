@@ -23,7 +23,7 @@ from shapes import bumpy_sphere
 import kfmaps
 from kfmaps.geometry.connectivity import component_labels, half_edges_by_edge
 from kfmaps.geometry.geodesics import farthest_geodesic
-from kfmaps.geometry.mesh import Mesh, unit_area, unit_rows
+from kfmaps.geometry.mesh import Mesh, unit_area, unit_rows, vertex_normals
 from kfmaps.geometry.subdivision import divide_faces
 from kfmaps.geometry.topology import topology
 
@@ -180,6 +180,26 @@ def _specks(mesh: Mesh, rng: np.random.Generator) -> Damaged:
     return _with_pieces(mesh, pieces)
 
 
+def _balls_inside(mesh: Mesh, rng: np.random.Generator) -> Damaged:
+    """Six loose spheres where the shape is thickest, turned inward, as cavities in a scanned body are."""
+    points = rng.uniform(mesh.vertices.min(axis=0), mesh.vertices.max(axis=0), (20_000, 3))
+    points = points[np.abs(np.asarray(igl.fast_winding_number(mesh.vertices, mesh.faces, points))) > 0.5]
+    depth = np.asarray(KDTree(mesh.vertices).query(points)[0])
+    ball, balls = bumpy_sphere(400), []
+    largest = np.linalg.norm(ball.vertices, axis=1).max()
+    for _ in range(6):
+        deepest = int(depth.argmax())
+        vertices = 0.8 * depth[deepest] / largest * ball.vertices + points[deepest]
+        balls.append(Mesh(vertices, ball.faces[:, ::-1]))
+        depth = np.minimum(depth, np.linalg.norm(points - points[deepest], axis=1) - depth[deepest])
+    return _with_pieces(mesh, balls)
+
+
+def _hollow(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+    """With an inner wall 3 % of √area below the surface, as shapes are printed."""
+    return _with_pieces(mesh, [Mesh(mesh.vertices - 0.03 * vertex_normals(mesh), mesh.faces[:, ::-1])])
+
+
 def _floor(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
     """A square of a third of the area below the shape, as the floor of a scan."""
     axis = int(np.argmax(np.ptp(mesh.vertices, axis=0)))
@@ -223,6 +243,8 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "more missing": _missing_faces(0.3),
     "bad edges": _bad_edges,
     "specks": _specks,
+    "balls inside": _balls_inside,
+    "hollow": _hollow,
     "floor": _floor,
     "far away": _far_away,
 }

@@ -1,20 +1,22 @@
-"""Pieces that overlap are matched as the closed surface around them."""
+"""Pieces that overlap are matched as the closed surface around them, and shapes without their inner walls."""
 
 from __future__ import annotations
 
 import warnings
 from dataclasses import replace
 
+import igl
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
 
-from conftest import blob, joined, small_fit
+from conftest import blob, joined, shifted, small_fit
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.datasets import sphere
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
-from kfmaps.geometry.outer_surface import _is_in_touching_pieces, outer_surface
+from kfmaps.geometry.outer_surface import _is_in_touching_pieces, outer_surface, without_inner_walls
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
@@ -127,3 +129,58 @@ def test_registered_parts_know_their_size(pieces) -> None:
     assert one.extent is not None
     assert other.extent is not None
     np.testing.assert_allclose(other.extent, 3 * one.extent, rtol=1e-6)
+
+
+def scaled(mesh: Mesh, factor: float, inward: bool = False) -> Mesh:
+    return Mesh(factor * mesh.vertices, mesh.faces[:, ::-1] if inward else mesh.faces)
+
+
+@pytest.mark.parametrize("inward", [True, False])
+@pytest.mark.parametrize("is_first", [True, False])
+def test_walls_and_balls_inside_are_left_out(inward, is_first) -> None:
+    body, wall = blob(900), scaled(blob(900), 0.9, inward)
+    mesh = unit_area(joined(wall, body) if is_first else joined(body, wall))
+    outer = without_inner_walls(mesh)
+    assert outer is not None
+    assert len(outer.vertices) == 1800
+    first = 900 if is_first else 0
+    np.testing.assert_array_equal(outer.faces, blob(900).faces + first)
+    assert without_inner_walls(unit_area(joined(body, shifted(wall, 2, 0, 0)))) is None
+    assert without_inner_walls(unit_area(body)) is None
+
+
+def test_a_piece_is_inside_where_four_fifths_of_its_vertices_are() -> None:
+    body, ball = blob(900), scaled(blob(400), 0.3)
+    for place in np.linspace(0.4, 1.2, 9):
+        moved = shifted(ball, place, 0, 0)
+        share = (np.asarray(igl.fast_winding_number(body.vertices, body.faces, moved.vertices)) > 0.5).mean()
+        outer = without_inner_walls(unit_area(joined(body, moved)))
+        assert (outer is not None) == (share >= 0.8)
+
+
+def test_a_hollow_body_is_matched_as_the_body() -> None:
+    body, other = blob(900), blob(900, twist=0.4)
+    clean = match(body, other, SMALL, landmarks=MARKS)
+    hollow = joined(body, scaled(body, 0.85, inward=True))
+    with pytest.warns(KfmapsWarning, match="surfaces inside it are left out"):
+        found = match(hollow, other, SMALL, landmarks=MARKS)
+    assert geodesic_errors(body, found.target_to_source, clean.target_to_source).mean() < 1e-3
+    assert found.precise().faces.max() < len(body.faces)
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
+        found = match(other, hollow, SMALL, landmarks=MARKS[:, ::-1])
+        shape = prepare(Mesh(3 * hollow.vertices, hollow.faces), SMALL)
+    assert len(found.target_to_source) == 1800
+    nearest = KDTree(body.vertices).query(hollow.vertices[900:])[1]
+    np.testing.assert_array_equal(found.target_to_source[900:], found.target_to_source[nearest])
+    assert shape.extent == pytest.approx(3 * np.sqrt(surface_area(body)))
+    np.testing.assert_array_equal(shape.given_mesh.faces, hollow.faces)
+
+
+def test_holes_beside_inner_walls_are_filled() -> None:
+    body = blob(900)
+    rows = np.random.default_rng(0).random(len(body.faces)) > 0.1
+    mesh = joined(Mesh(body.vertices, body.faces[rows]), scaled(body, 0.85, inward=True))
+    with pytest.warns(KfmapsWarning, match="surfaces inside it are left out, small holes are filled"):
+        shape = prepare(mesh, SMALL)
+    assert shape.extent == pytest.approx(np.sqrt(surface_area(body)), rel=0.01)
+    assert topology(shape.cleaned[0].mesh).is_closed

@@ -25,7 +25,7 @@ from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_c
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
-from kfmaps.geometry.outer_surface import outer_surface
+from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 
 EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
@@ -61,7 +61,7 @@ class Shape:
     extent : float or None
         √area before scaling; ``None`` for a point cloud.
     given_faces : (f, 3) int64, or None
-        The faces as given, where ``mesh`` has others: through a point cloud, around pieces that overlap, or, after
+        The faces as given, where ``mesh`` has others: through a point cloud, on the outer surface of pieces, or, after
         the given ones, in small holes.
 
     Examples
@@ -116,12 +116,12 @@ class Shape:
 
     @property
     def is_repaired(self) -> bool:
-        """Whether the faces are not all given: around pieces that overlap, or also in small holes."""
+        """Whether the faces are others than those given: on the outer surface of pieces, or also in small holes."""
         return self.given_faces is not None and len(self.given_faces) > 0
 
     @property
     def is_outer_surface(self) -> bool:
-        """Whether the faces are those of the closed surface around given pieces, some of whose vertices are inside."""
+        """Whether the faces are those of the outer surface of given pieces, some of whose vertices are inside."""
         given = self.given_faces
         return given is not None and self.is_repaired and not np.array_equal(self.mesh.faces[: len(given)], given)
 
@@ -173,9 +173,9 @@ def prepare(
 
     Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out
     (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), and
-    pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`) or else small holes are filled
-    (:mod:`kfmaps.geometry.holes`). A warning says so. ``mesh``: in any unit; without faces it is a point cloud.
-    ``config``: its basis, descriptor and refinement settings count.
+    only the outer surface of pieces inside each other or that overlap is left (:mod:`kfmaps.geometry.outer_surface`),
+    and small holes are filled (:mod:`kfmaps.geometry.holes`). A warning says so. ``mesh``: in any unit; without faces
+    it is a point cloud. ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
@@ -191,8 +191,8 @@ def prepare(
     unit = unit_area(cleaned.mesh)
     _check_size(unit, name, config)
     extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
-    surface, repair = _repaired(unit, config.descriptors.shot)
-    _warn_of_cleaning(cleaned, name, noisy, repair)
+    surface, repairs = _repaired(unit, config.descriptors.shot)
+    _warn_of_cleaning(cleaned, name, noisy, repairs)
     if is_cloud and config.descriptors.shot and surface is None:
         text = (
             "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
@@ -295,21 +295,28 @@ def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
     return Mesh(vertices, mesh.faces)
 
 
-def _repaired(mesh: Mesh, clouds: bool) -> tuple[Mesh | None, str]:
+def _repaired(mesh: Mesh, clouds: bool) -> tuple[Mesh | None, list[str]]:
     """Return the surface that is matched instead of a cleaned ``mesh``, or ``None``, and what is done to a mesh.
 
-    ``clouds``: whether a surface through the points of a point cloud is wanted.
+    ``mesh``: of unit area; ``clouds``: whether a surface through the points of a point cloud is wanted.
     """
     if len(mesh.faces) == 0:
-        return (surface_of_cloud(mesh.vertices) if clouds else None), ""
+        return (surface_of_cloud(mesh.vertices) if clouds else None), []
+    outer, scale, changes = without_inner_walls(mesh), 1.0, []
+    if outer is not None:
+        scale, changes = float(np.sqrt(surface_area(outer))), ["surfaces inside it are left out"]
+        mesh = Mesh(outer.vertices / scale, outer.faces)
     surface = outer_surface(mesh)
     if surface is not None:
-        return surface, "pieces that overlap count as the surface around them"
-    surface = fill_holes(mesh)
-    return surface, "" if surface is None else "small holes are filled"
+        changes.append("pieces that overlap count as the surface around them")
+    else:
+        surface = fill_holes(mesh)
+        changes += ["small holes are filled"] * (surface is not None)
+    mesh = surface or mesh
+    return Mesh(scale * mesh.vertices, mesh.faces) if changes else None, changes
 
 
-def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repair: str) -> None:
+def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repairs: list[str]) -> None:
     """Warn once of what is connected, left out, turned, smoothed or repaired."""
     welded = ("vertex on a seam is connected", "vertices on seams are connected")
     if len(cleaned.mesh.faces) == 0:
@@ -323,7 +330,7 @@ def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repair: str)
     if cleaned.turned is not None:
         changes.append(f"{cleaned.turned.sum()} of {len(cleaned.turned)} faces are turned outward")
     changes += ["noisy vertices are projected to a smooth surface"] * noisy
-    changes += [repair] * bool(repair)
+    changes += repairs
     if changes:
         warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=3)
 

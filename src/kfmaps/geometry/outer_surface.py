@@ -1,4 +1,8 @@
-"""The closed surface around pieces that overlap, such as limbs that are stuck into a trunk or scans side by side."""
+"""The outer surface of a shape in pieces: without inner walls, around limbs stuck into a trunk and scans that overlap.
+
+Inside is where the winding number is above one half (Jacobson, Kavan and Sorkine-Hornung, Robust inside-outside
+segmentation using generalized winding numbers, 2013).
+"""
 
 from __future__ import annotations
 
@@ -12,18 +16,39 @@ from kfmaps.geometry.mesh import Mesh, component_areas, vertex_normals
 
 _WHOLE_AREA = 0.95
 """Share of the area above which one piece, pieces that touch, or one closed surface are taken for the whole shape."""
+_MIN_INSIDE, _N_OUTER = 0.8, 3
+"""Least share of the vertices of a component that are inside another, of which it is an inner wall then, and the number
+of components, the widest, in which others may be."""
 _DEPTH = 0.007
 """Height above the surface, in √area, where a vertex is asked whether it is inside: about half an edge."""
+
+
+def without_inner_walls(mesh: Mesh) -> Mesh | None:
+    """Return a mesh without the components inside one of its widest, such as cavities; ``None`` where there are none.
+
+    ``mesh``: cleaned, with faces outward.
+    """
+    label, areas = component_areas(mesh)
+    count, component = len(areas), label[mesh.faces[:, 0]]
+    if count == 1:
+        return None
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, label, mesh.vertices)
+    np.maximum.at(high, label, mesh.vertices)
+    is_inner, sizes = np.zeros(count, dtype=bool), np.bincount(label, minlength=count)
+    for outer in np.argsort(-np.linalg.norm(high - low, axis=1))[:_N_OUTER]:
+        faces, others = mesh.faces[component == outer], np.flatnonzero(label != outer)
+        is_inside = np.asarray(igl.fast_winding_number(mesh.vertices, faces, mesh.vertices[others])) > 0.5
+        is_inner |= np.bincount(label[others], is_inside, count) >= _MIN_INSIDE * sizes
+    return Mesh(mesh.vertices, mesh.faces[~is_inner[component]]) if is_inner.any() else None
 
 
 def outer_surface(mesh: Mesh) -> Mesh | None:
     """Return the closed mesh around pieces that overlap or touch, with the vertices of ``mesh`` in their order.
 
     ``mesh``: cleaned, of unit area, with faces outward. Vertices inside other pieces are no corners of the new faces;
-    the others may have moved where they are noisy. Inside is where the winding number is above one half (Jacobson,
-    Kavan and Sorkine-Hornung, Robust inside-outside segmentation using generalized winding numbers, 2013). Return
-    ``None`` for a mesh that is nearly all in one piece, for pieces that lie apart, and where no closed surface through
-    the vertices is found.
+    the others may have moved where they are noisy. Return ``None`` for a mesh that is nearly all in one piece, for
+    pieces that lie apart, and where no closed surface through the vertices is found.
     """
     if not _is_in_touching_pieces(mesh):
         return None
