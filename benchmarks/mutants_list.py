@@ -36,6 +36,8 @@ MUTANTS = tuple(
             "test_outer_surface",
         ),
         ("axis=1) <= reach[b]", "axis=1) <= 3 * reach[b]", "test_cleaning"),
+        ("np.abs(number) > 0.5", "number > 0.5", "test_outer_surface"),
+        ("is_inside, count) >= _MIN_INSIDE", "is_inside, count) > 0 * _MIN_INSIDE", "test_outer_surface"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
         ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),

@@ -145,6 +145,9 @@ def test_walls_and_balls_inside_are_left_out(inward, is_first) -> None:
     assert len(outer.vertices) == 1800
     first = 900 if is_first else 0
     np.testing.assert_array_equal(outer.faces, blob(900).faces + first)
+    turned = without_inner_walls(unit_area(joined(wall, Mesh(body.vertices, body.faces[:, ::-1]))))
+    assert turned is not None
+    np.testing.assert_array_equal(turned.faces, blob(900).faces[:, ::-1] + 900)
     assert without_inner_walls(unit_area(joined(body, shifted(wall, 2, 0, 0)))) is None
     assert without_inner_walls(unit_area(body)) is None
 

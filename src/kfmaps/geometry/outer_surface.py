@@ -26,7 +26,7 @@ _DEPTH = 0.007
 def without_inner_walls(mesh: Mesh) -> Mesh | None:
     """Return a mesh without the components inside one of its widest, such as cavities; ``None`` where there are none.
 
-    ``mesh``: cleaned, with faces outward.
+    ``mesh``: cleaned.
     """
     label, areas = component_areas(mesh)
     count, component = len(areas), label[mesh.faces[:, 0]]
@@ -38,7 +38,8 @@ def without_inner_walls(mesh: Mesh) -> Mesh | None:
     is_inner, sizes = np.zeros(count, dtype=bool), np.bincount(label, minlength=count)
     for outer in np.argsort(-np.linalg.norm(high - low, axis=1))[:_N_OUTER]:
         faces, others = mesh.faces[component == outer], np.flatnonzero(label != outer)
-        is_inside = np.asarray(igl.fast_winding_number(mesh.vertices, faces, mesh.vertices[others])) > 0.5
+        number = np.asarray(igl.fast_winding_number(mesh.vertices, faces, mesh.vertices[others]))
+        is_inside = np.abs(number) > 0.5  # negative in components that face inward among others
         is_inner |= np.bincount(label[others], is_inside, count) >= _MIN_INSIDE * sizes
     return Mesh(mesh.vertices, mesh.faces[~is_inner[component]]) if is_inner.any() else None
 
