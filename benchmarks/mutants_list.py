@@ -38,6 +38,10 @@ MUTANTS = tuple(
         ("axis=1) <= reach[b]", "axis=1) <= 3 * reach[b]", "test_cleaning"),
         ("np.abs(number) > 0.5", "number > 0.5", "test_outer_surface"),
         ("is_inside, count) >= _MIN_INSIDE", "is_inside, count) > 0 * _MIN_INSIDE", "test_outer_surface"),
+        ("3 * deviation))[faces].all(axis=1)", "3 * deviation))[faces].any(axis=1)", "test_floor"),
+        ("max(above, 1 - above) < _MIN_ABOVE", "min(above, 1 - above) > _MIN_ABOVE", "test_floor"),
+        ("label[faces[:, 0]], label[edge]", "label[faces[:, 0]], label", "test_floor"),
+        ("axis=1) > _MAX_DEPTH", "axis=1) > 100 * _MAX_DEPTH", "test_floor"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
         ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),

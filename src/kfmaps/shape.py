@@ -23,6 +23,7 @@ from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward
 from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
+from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls
@@ -173,9 +174,10 @@ def prepare(
 
     Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out
     (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), and
-    only the outer surface of pieces inside each other or that overlap is left (:mod:`kfmaps.geometry.outer_surface`),
-    and small holes are filled (:mod:`kfmaps.geometry.holes`). A warning says so. ``mesh``: in any unit; without faces
-    it is a point cloud. ``config``: its basis, descriptor and refinement settings count.
+    so is a floor (:mod:`kfmaps.geometry.floor`). Only the outer surface of pieces inside each other or that overlap is
+    left (:mod:`kfmaps.geometry.outer_surface`), and small holes are filled (:mod:`kfmaps.geometry.holes`). A warning
+    says so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and refinement
+    settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
@@ -302,10 +304,13 @@ def _repaired(mesh: Mesh, clouds: bool) -> tuple[Mesh | None, list[str]]:
     """
     if len(mesh.faces) == 0:
         return (surface_of_cloud(mesh.vertices) if clouds else None), []
-    outer, scale, changes = without_inner_walls(mesh), 1.0, []
-    if outer is not None:
-        scale, changes = float(np.sqrt(surface_area(outer))), ["surfaces inside it are left out"]
-        mesh = Mesh(outer.vertices / scale, outer.faces)
+    scale, changes = 1.0, []
+    for without, change in ((without_floor, "the floor is"), (without_inner_walls, "surfaces inside it are")):
+        rest = without(mesh)
+        if rest is not None:
+            factor = float(np.sqrt(surface_area(rest)))
+            mesh = Mesh(rest.vertices / factor, rest.faces)
+            scale, changes = scale * factor, [*changes, f"{change} left out"]
     surface = outer_surface(mesh)
     if surface is not None:
         changes.append("pieces that overlap count as the surface around them")

@@ -95,7 +95,8 @@ def _doubtful_area(match: Match) -> float:
     """Return the share of the target's area with a low local fit; 0 without a good verdict and for parts."""
     if len(match.target.faces) == 0 or match.verdict not in ("sure", "likely") or match.partial.which != "none":
         return 0.0
-    return low_confidence_area(match.target, match.local_confidence)
+    left_out = match.local_confidence == 0  # cleaning has
+    return low_confidence_area(match.target, np.where(left_out, 1.0, match.local_confidence))
 
 
 def _shape(mesh: Mesh, name: str) -> str:

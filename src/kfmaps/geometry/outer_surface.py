@@ -28,17 +28,22 @@ def without_inner_walls(mesh: Mesh) -> Mesh | None:
 
     ``mesh``: cleaned.
     """
-    label, areas = component_areas(mesh)
-    count, component = len(areas), label[mesh.faces[:, 0]]
+    label = component_labels(len(mesh.vertices), mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel())[1]
+    used = np.unique(mesh.faces)
+    label = np.unique(label[used], return_inverse=True)[1]  # of the vertices that a face uses
+    count, positions = int(label.max()) + 1, mesh.vertices[used]
     if count == 1:
         return None
+    component = np.empty(len(mesh.vertices), dtype=np.int64)
+    component[used] = label
+    component = component[mesh.faces[:, 0]]
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, label, mesh.vertices)
-    np.maximum.at(high, label, mesh.vertices)
-    is_inner, sizes = np.zeros(count, dtype=bool), np.bincount(label, minlength=count)
+    np.minimum.at(low, label, positions)
+    np.maximum.at(high, label, positions)
+    is_inner, sizes = np.zeros(count, dtype=bool), np.bincount(label)
     for outer in np.argsort(-np.linalg.norm(high - low, axis=1))[:_N_OUTER]:
-        faces, others = mesh.faces[component == outer], np.flatnonzero(label != outer)
-        number = np.asarray(igl.fast_winding_number(mesh.vertices, faces, mesh.vertices[others]))
+        others = np.flatnonzero(label != outer)
+        number = np.asarray(igl.fast_winding_number(mesh.vertices, mesh.faces[component == outer], positions[others]))
         is_inside = np.abs(number) > 0.5  # negative in components that face inward among others
         is_inner |= np.bincount(label[others], is_inside, count) >= _MIN_INSIDE * sizes
     return Mesh(mesh.vertices, mesh.faces[~is_inner[component]]) if is_inner.any() else None

@@ -13,6 +13,9 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.shape import Shape
 
+_MAX_DEPTH = 0.05
+"""Distance from a shape's outer surface, in √area, up to which other vertices share its local confidence."""
+
 
 @dataclass(frozen=True, eq=False)
 class VertexReindexing:
@@ -124,10 +127,13 @@ class VertexReindexing:
 def _at_given(values: np.ndarray, cleaned: CleanedMesh, given: Shape) -> np.ndarray:
     """Return values at the cleaned vertices, (m,), for the given ones, (n,): 0 at vertices of no face.
 
-    Vertices inside a surface that preparation has made around pieces have the value of the nearest one.
+    Vertices inside a surface that preparation has made of pieces have the value of the nearest one, if it is near.
     """
-    values = values[cleaned.to_clean]
-    return values if given.is_outer_surface else np.where(cleaned.unreferenced, 0.0, values)
+    is_lost = cleaned.unreferenced
+    if given.is_outer_surface:
+        away = given.mesh.vertices - cleaned.mesh.vertices[cleaned.to_clean]
+        is_lost = is_lost & (np.linalg.norm(away, axis=1) > _MAX_DEPTH)
+    return np.where(is_lost, 0.0, values[cleaned.to_clean])
 
 
 def reindexing(source: Shape, target: Shape, divided: bool = False) -> VertexReindexing:
