@@ -41,7 +41,8 @@ MUTANTS = tuple(
         ("3 * deviation))[faces].all(axis=1)", "3 * deviation))[faces].any(axis=1)", "test_floor"),
         ("max(above, 1 - above) < _MIN_ABOVE", "min(above, 1 - above) > _MIN_ABOVE", "test_floor"),
         ("label[faces[:, 0]], label[edge]", "label[faces[:, 0]], label", "test_floor"),
-        ("axis=1) > _MAX_DEPTH", "axis=1) > 100 * _MAX_DEPTH", "test_floor"),
+        ("(away > _MAX_DEPTH)", "(away > 100 * _MAX_DEPTH)", "test_floor"),
+        ("outer = used[is_outer[used]]", "outer = np.flatnonzero(is_outer)", "test_floor"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
         ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from conftest import blob, joined, sheet, shifted, small_fit
-from kfmaps._arrays import KfmapsWarning
+from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area
 from kfmaps.matching.match import match
-from kfmaps.shape import prepare
+from kfmaps.shape import Shape, prepare
 
 GUARDS = ("kfmaps.geometry.floor", "kfmaps.shape", "kfmaps.matching.reindexing")
 
@@ -99,7 +99,29 @@ def test_a_body_on_a_floor_is_matched_as_the_body(is_source) -> None:
         away /= np.sqrt(surface_area(body))
         assert (found.local_confidence[900:][away > 0.06] == 0).all()
         assert (found.local_confidence[900:][away < 0.04] > 0).any()
-    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
-        shape = prepare(scan, SMALL)
+    shape = prepare_quietly(scan)
     assert shape.extent == pytest.approx(np.sqrt(surface_area(body)))
     assert len(shape.given_mesh.faces) == len(scan.faces)
+
+
+def test_pieces_that_overlap_are_joined_above_a_floor() -> None:
+    ball = blob(900)
+    low = -ball.vertices[:, 2].min()
+    pieces = joined(shifted(ball, -0.6, 0, low), shifted(ball, 0.6, 0, low))
+    plain, scan = prepare_quietly(pieces), prepare_quietly(joined(pieces, ground(5.0)))
+    assert plain.is_outer_surface
+    assert plain.extent is not None
+    assert scan.extent == pytest.approx(plain.extent, rel=1e-6)
+    assert len(np.unique(scan.mesh.faces)) == len(np.unique(plain.mesh.faces))
+
+
+def prepare_quietly(mesh: Mesh) -> Shape:
+    with warnings.catch_warnings(action="ignore", category=KfmapsWarning):
+        return prepare(mesh, SMALL)
+
+
+def test_what_stands_on_a_floor_may_be_too_small() -> None:
+    small = blob(35)
+    scan = joined(shifted(small, 0, 0, -small.vertices[:, 2].min()), ground(4.0))
+    with pytest.raises(InvalidInput, match="one for each eigenfunction"):
+        prepare_quietly(scan)

@@ -173,11 +173,11 @@ def prepare(
     """Compute what depends on one shape alone, so that matches with many others share it.
 
     Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out
-    (:mod:`kfmaps.geometry.clean`), much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`), and
-    so is a floor (:mod:`kfmaps.geometry.floor`). Only the outer surface of pieces inside each other or that overlap is
-    left (:mod:`kfmaps.geometry.outer_surface`), and small holes are filled (:mod:`kfmaps.geometry.holes`). A warning
-    says so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and refinement
-    settings count.
+    (:mod:`kfmaps.geometry.clean`), and so are a floor (:mod:`kfmaps.geometry.floor`) and surfaces inside another.
+    Pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`), small holes are filled
+    (:mod:`kfmaps.geometry.holes`), and much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`). A
+    warning says so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and
+    refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
@@ -206,6 +206,7 @@ def prepare(
         mesh = _with_faces_of(surface, mesh, cleaned)
         cleaned = face_outward(clean_mesh(mesh, specks=True))
         unit = unit_area(cleaned.mesh)
+        _check_size(unit, name, config)
     laplacian, radius = config.basis.laplacian, config.descriptors.shot_radius
     size, local = config.n_eigenfunctions, None
     tolerance = EXACT if len(unit.vertices) <= EXACT_EIGENPAIRS else LOOSE_TOLERANCE

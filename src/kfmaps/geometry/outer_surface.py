@@ -46,7 +46,9 @@ def without_inner_walls(mesh: Mesh) -> Mesh | None:
         number = np.asarray(igl.fast_winding_number(mesh.vertices, mesh.faces[component == outer], positions[others]))
         is_inside = np.abs(number) > 0.5  # negative in components that face inward among others
         is_inner |= np.bincount(label[others], is_inside, count) >= _MIN_INSIDE * sizes
-    return Mesh(mesh.vertices, mesh.faces[~is_inner[component]]) if is_inner.any() else None
+    if not is_inner.any() or is_inner.all():  # open surfaces may seem to be inside each other
+        return None
+    return Mesh(mesh.vertices, mesh.faces[~is_inner[component]])
 
 
 def outer_surface(mesh: Mesh) -> Mesh | None:
@@ -61,7 +63,8 @@ def outer_surface(mesh: Mesh) -> Mesh | None:
     above = mesh.vertices + _DEPTH * vertex_normals(mesh)
     is_outer = np.asarray(igl.fast_winding_number(mesh.vertices, mesh.faces, above)) <= 0.5
     is_outer &= unique_vertices(mesh.vertices) == np.arange(len(mesh.vertices))
-    outer = np.flatnonzero(is_outer)
+    used = np.unique(mesh.faces)  # the vertices of what is left out already are not
+    outer = used[is_outer[used]]
     surface = surface_of_cloud(mesh.vertices[outer])
     if surface is None:
         return None

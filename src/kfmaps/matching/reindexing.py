@@ -131,8 +131,9 @@ def _at_given(values: np.ndarray, cleaned: CleanedMesh, given: Shape) -> np.ndar
     """
     is_lost = cleaned.unreferenced
     if given.is_outer_surface:
-        away = given.mesh.vertices - cleaned.mesh.vertices[cleaned.to_clean]
-        is_lost = is_lost & (np.linalg.norm(away, axis=1) > _MAX_DEPTH)
+        nearest = cleaned.to_original[cleaned.to_clean]
+        away = np.linalg.norm(given.mesh.vertices - given.mesh.vertices[nearest], axis=1)
+        is_lost = is_lost & (away > _MAX_DEPTH)
     return np.where(is_lost, 0.0, values[cleaned.to_clean])
 
 
