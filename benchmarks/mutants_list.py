@@ -42,6 +42,7 @@ MUTANTS = tuple(
         ("max(above, 1 - above) < _MIN_ABOVE", "min(above, 1 - above) > _MIN_ABOVE", "test_floor"),
         ("label[faces[:, 0]], label[edge]", "label[faces[:, 0]], label", "test_floor"),
         ("(away > _MAX_DEPTH)", "(away > 100 * _MAX_DEPTH)", "test_floor"),
+        ("min(_MAX_AREA, lengths.max() ** 2 / (4 * np.pi))", "_MAX_AREA", "test_floor"),
         ("outer = used[is_outer[used]]", "outer = np.flatnonzero(is_outer)", "test_floor"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),

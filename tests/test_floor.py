@@ -11,8 +11,10 @@ from conftest import blob, joined, sheet, shifted, small_fit
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
+from kfmaps.geometry.clean import clean_mesh, face_outward
 from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area
+from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
 from kfmaps.shape import Shape, prepare
 
@@ -125,3 +127,24 @@ def test_what_stands_on_a_floor_may_be_too_small() -> None:
     scan = joined(shifted(small, 0, 0, -small.vertices[:, 2].min()), ground(4.0))
     with pytest.raises(InvalidInput, match="one for each eigenfunction"):
         prepare_quietly(scan)
+
+
+def test_a_hole_in_a_flat_side_is_no_edge_of_a_floor() -> None:
+    """Of a box, whose other sides are all on one side of the plane."""
+    along = np.linspace(-1, 1, 15)
+    top, side = sheet(along, along), np.diag([1.0, 1.0, 1.0])
+    turns = [side, side[[0, 2, 1]], side[[2, 1, 0]]]
+    box = joined(*(Mesh((top.vertices + np.array([0, 0, up])) @ turn, top.faces) for turn in turns for up in (-1, 1)))
+    assert without_floor(unit_area(face_outward(clean_mesh(box)).mesh)) is None
+    middle = np.linalg.norm(box.vertices[box.faces].mean(axis=1) - [0, 0, -1], axis=1)
+    holed = unit_area(face_outward(clean_mesh(Mesh(box.vertices, box.faces[middle > 0.4]))).mesh)
+    assert topology(holed).boundary_loops == 1
+    assert without_floor(holed) is None
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_faces_are_no_floor(seed) -> None:
+    """The longest of their boundaries may be a single edge."""
+    rng = np.random.default_rng(seed)
+    faces = np.array([rng.choice(8, 3, replace=False) for _ in range(40)])
+    assert without_floor(unit_area(Mesh(rng.normal(size=(8, 3)), faces))) is None

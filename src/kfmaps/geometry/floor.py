@@ -32,9 +32,9 @@ def without_floor(mesh: Mesh) -> Mesh | None:
     loop = boundary_loops(vertices, edges)[0]
     lengths = np.bincount(loop, np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1))
     edge = np.unique(edges[loop == lengths.argmax()])
-    centre = vertices[edge].mean(axis=0)
-    normal = np.linalg.svd(vertices[edge] - centre, full_matrices=False)[2][2]
-    height = (vertices - centre) @ normal
+    positions = vertices - vertices[edge].mean(axis=0)
+    normal = np.linalg.eigh(positions[edge].T @ positions[edge])[1][:, 0]
+    height = positions @ normal
     deviation = float(np.sqrt((height[edge] ** 2).mean()))
     if deviation > _MAX_DEVIATION:
         return None
@@ -44,7 +44,8 @@ def without_floor(mesh: Mesh) -> Mesh | None:
     is_floor = is_flat & np.isin(label[faces[:, 0]], label[edge])
     areas = face_areas(mesh)
     share = areas[is_floor].sum()
-    if not _MIN_AREA <= share <= _MAX_AREA:
+    # A border encloses no more area than a circle of its length: a small hole in a flat side is no edge of that side.
+    if not _MIN_AREA <= share <= min(_MAX_AREA, lengths.max() ** 2 / (4 * np.pi)):
         return None
     cosine = areas[is_floor] @ np.abs(face_normals(mesh)[is_floor] @ normal) / share
     above = areas[~is_floor] @ (height[faces[~is_floor]].mean(axis=1) > 0) / (1 - share)
