@@ -37,7 +37,7 @@ MUTANTS = tuple(
         ),
         ("axis=1) <= reach[b]", "axis=1) <= 3 * reach[b]", "test_cleaning"),
         ("np.abs(number) > 0.5", "number > 0.5", "test_outer_surface"),
-        ("is_inside, count) >= _MIN_INSIDE", "is_inside, count) > 0 * _MIN_INSIDE", "test_outer_surface"),
+        ("len(areas)) >= _MIN_INSIDE", "len(areas)) > 0 * _MIN_INSIDE", "test_outer_surface"),
         ("3 * deviation))[faces].all(axis=1)", "3 * deviation))[faces].any(axis=1)", "test_floor"),
         ("max(above, 1 - above) < _MIN_ABOVE", "min(above, 1 - above) > _MIN_ABOVE", "test_floor"),
         ("label[faces[:, 0]], label[edge]", "label[faces[:, 0]], label", "test_floor"),
@@ -48,7 +48,7 @@ MUTANTS = tuple(
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
         ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),
         ("alignment >= _MIN_ALIGNMENT", "alignment >= -_MIN_ALIGNMENT", "test_holes"),
-        ("opening - left >= _MIN_SHARE * opening", "opening - left >= 0", "test_holes"),
+        ("opening_area(filled) >= _MIN_SHARE * opening", "opening_area(filled) >= 0", "test_holes"),
         ("min(detection.opening, 1.0))", "1 - min(detection.opening, 1.0))", "test_parts -k less_probable"),
         # kernel
         ("[None, :] - 2 * (X @ Y.T)", "[None, :] - (X @ Y.T)", KERNEL),

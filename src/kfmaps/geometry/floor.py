@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps.geometry.connectivity import component_labels, half_edges_by_edge
+from kfmaps.geometry.connectivity import boundary_edges, component_labels
 from kfmaps.geometry.mesh import Mesh, boundary_loops, face_areas, face_normals
 
 _MAX_DEVIATION, _MIN_TOLERANCE = 0.007, 0.01
@@ -25,10 +25,9 @@ def without_floor(mesh: Mesh) -> Mesh | None:
     to the boundary. Where a limb is cut off, few faces lie in such a plane, and they are perpendicular to it.
     """
     vertices, faces = mesh.vertices, mesh.faces
-    boundary = half_edges_by_edge(faces, len(vertices))[0]
-    if len(boundary) == 0:
+    edges = boundary_edges(faces, len(vertices))
+    if len(edges) == 0:
         return None
-    edges = np.stack([faces.ravel()[boundary], faces[:, [1, 2, 0]].ravel()[boundary]], axis=1)
     loop = boundary_loops(vertices, edges)[0]
     lengths = np.bincount(loop, np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1))
     edge = np.unique(edges[loop == lengths.argmax()])

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from kfmaps._arrays import blocks
-from kfmaps.geometry.connectivity import boundary_edges, half_edges_by_edge, mesh_edges
-from kfmaps.geometry.mesh import Mesh, boundary_loops, face_areas, unit_rows, vertex_normals
+from kfmaps.geometry.connectivity import half_edges_by_edge, mesh_edges
+from kfmaps.geometry.mesh import Mesh, face_areas, opening_area, unit_rows, vertex_normals
 
 EdgeTest = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -35,21 +35,20 @@ def fill_holes(mesh: Mesh) -> Mesh | None:
     ``mesh``: cleaned, of unit area, oriented consistently. The faces of a hole have the least area, which dynamic
     programming finds (Barequet and Sharir, Filling gaps in the boundary of a polyhedron, 1995).
     """
+    opening = opening_area(mesh)
+    if opening < _MIN_OPENING:
+        return None
     boundary = half_edges_by_edge(mesh.faces, len(mesh.vertices))[0]
     # Around a hole the border runs against the faces beside it.
     edges = np.stack([mesh.faces[:, [1, 2, 0]].ravel()[boundary], mesh.faces.ravel()[boundary]], axis=1)
-    opening = boundary_loops(mesh.vertices, edges)[1]
-    if opening < _MIN_OPENING:
-        return None
-    is_edge = _edge_test(mesh)
-    filled = [
-        _fill_loops(mesh, loops[rows], is_edge)
+    normals, is_edge = vertex_normals(mesh), _edge_test(mesh)
+    added = [
+        _fill_loops(mesh.vertices, normals, loops[rows], is_edge)
         for loops in _loops_by_size(mesh.vertices, edges)
         for rows in blocks(len(loops), 1 + _BLOCK // loops.shape[1] ** 2)
     ]
-    faces = np.concatenate([mesh.faces, *filled])
-    left = boundary_loops(mesh.vertices, boundary_edges(faces, len(mesh.vertices)))[1]
-    return Mesh(mesh.vertices, faces) if opening - left >= _MIN_SHARE * opening else None
+    filled = Mesh(mesh.vertices, np.concatenate([mesh.faces, *added]))
+    return filled if opening - opening_area(filled) >= _MIN_SHARE * opening else None
 
 
 def _loops_by_size(vertices: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
@@ -96,14 +95,14 @@ def _edge_test(mesh: Mesh) -> EdgeTest:
     return is_edge
 
 
-def _fill_loops(mesh: Mesh, loops: np.ndarray, is_edge: EdgeTest) -> np.ndarray:
-    """Return the faces in those of ``loops (l, k)`` that are small holes, (f, 3)."""
-    faces, is_possible = _least_faces(mesh.vertices[loops], is_edge(loops[:, :, None], loops[:, None]))
+def _fill_loops(vertices: np.ndarray, normals: np.ndarray, loops: np.ndarray, is_edge: EdgeTest) -> np.ndarray:
+    """Return the faces in those of ``loops (l, k)`` that are small holes, (f, 3); ``normals (n, 3)``: of vertices."""
+    corners = vertices[loops]
+    faces, is_possible = _least_faces(corners, is_edge(loops[:, :, None], loops[:, None]))
     faces = loops[np.arange(len(loops))[:, None, None], faces]
-    corners = mesh.vertices[loops]
     vectors = np.cross(corners, np.roll(corners, -1, axis=1)).sum(axis=1)
-    alignment = np.einsum("lki,li->lk", vertex_normals(mesh)[loops], unit_rows(vectors)).mean(axis=1)
-    areas = face_areas(Mesh(mesh.vertices, faces.reshape(-1, 3))).reshape(len(loops), -1).sum(axis=1)
+    alignment = np.einsum("lki,li->lk", normals[loops], unit_rows(vectors)).mean(axis=1)
+    areas = face_areas(Mesh(vertices, faces.reshape(-1, 3))).reshape(len(loops), -1).sum(axis=1)
     is_hole = is_possible & (areas <= np.where(alignment >= _MIN_ALIGNMENT, _MAX_AREA, _TINY))
     return faces[is_hole].reshape(-1, 3)
 

@@ -126,6 +126,11 @@ def boundary_loops(vertices: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray,
     return loop, float((np.bincount(loop, lengths) ** 2).sum() / (4 * np.pi))
 
 
+def opening_area(mesh: Mesh) -> float:
+    """Return the total area of flat discs with the lengths of the boundary loops: the least that is missing."""
+    return boundary_loops(mesh.vertices, boundary_edges(mesh.faces, len(mesh.vertices)))[1]
+
+
 MIRROR = np.array([-1.0, 1.0, 1.0])
 """Factors of the coordinates that reflect positions in the plane x = 0."""
 

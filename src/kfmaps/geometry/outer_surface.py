@@ -28,25 +28,21 @@ def without_inner_walls(mesh: Mesh) -> Mesh | None:
 
     ``mesh``: cleaned.
     """
-    label = component_labels(len(mesh.vertices), mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel())[1]
-    used = np.unique(mesh.faces)
-    label = np.unique(label[used], return_inverse=True)[1]  # of the vertices that a face uses
-    count, positions = int(label.max()) + 1, mesh.vertices[used]
-    if count == 1:
+    label, areas = component_areas(mesh)
+    pieces = np.flatnonzero(areas)  # a vertex that no face uses is a component, too
+    if len(pieces) == 1:
         return None
-    component = np.empty(len(mesh.vertices), dtype=np.int64)
-    component[used] = label
-    component = component[mesh.faces[:, 0]]
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, label, positions)
-    np.maximum.at(high, label, positions)
-    is_inner, sizes = np.zeros(count, dtype=bool), np.bincount(label)
-    for outer in np.argsort(-np.linalg.norm(high - low, axis=1))[:_N_OUTER]:
-        others = np.flatnonzero(label != outer)
-        number = np.asarray(igl.fast_winding_number(mesh.vertices, mesh.faces[component == outer], positions[others]))
+    low, high = np.full((len(areas), 3), np.inf), np.full((len(areas), 3), -np.inf)
+    np.minimum.at(low, label, mesh.vertices)
+    np.maximum.at(high, label, mesh.vertices)
+    width, component = np.linalg.norm(high - low, axis=1), label[mesh.faces[:, 0]]
+    is_inner, sizes = np.zeros(len(areas), dtype=bool), np.bincount(label)
+    for outer in pieces[np.argsort(-width[pieces])[:_N_OUTER]]:
+        others, faces = np.flatnonzero(label != outer), mesh.faces[component == outer]
+        number = np.asarray(igl.fast_winding_number(mesh.vertices, faces, mesh.vertices[others]))
         is_inside = np.abs(number) > 0.5  # negative in components that face inward among others
-        is_inner |= np.bincount(label[others], is_inside, count) >= _MIN_INSIDE * sizes
-    if not is_inner.any() or is_inner.all():  # open surfaces may seem to be inside each other
+        is_inner |= np.bincount(label[others], is_inside, len(areas)) >= _MIN_INSIDE * sizes
+    if not is_inner[pieces].any() or is_inner[pieces].all():  # open surfaces may seem to be inside each other
         return None
     return Mesh(mesh.vertices, mesh.faces[~is_inner[component]])
 

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from kfmaps.geometry.clean import clean_mesh
-from kfmaps.geometry.connectivity import boundary_edges
-from kfmaps.geometry.mesh import Mesh, boundary_loops, surface_area
+from kfmaps.geometry.mesh import Mesh, opening_area, surface_area
 from kfmaps.matching.partial.one_view import is_view_of
 from kfmaps.matching.score import SCORE
 
@@ -32,7 +31,7 @@ def _boundary_opening(mesh: Mesh) -> float:
     mesh = clean_mesh(mesh).mesh
     if len(mesh.faces) == 0:
         return 0.0
-    return boundary_loops(mesh.vertices, boundary_edges(mesh.faces, len(mesh.vertices)))[1] / surface_area(mesh)
+    return opening_area(mesh) / surface_area(mesh)
 
 
 def detect_part(source: Mesh, target: Mesh) -> PartDetection:
