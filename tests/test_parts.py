@@ -415,6 +415,7 @@ class WholeMatch:
     score: Any = field(default_factory=lambda: SimpleNamespace(deformation_energy=0.1))
 
 
+@pytest.mark.parametrize("stated", ["auto", "none"])
 @pytest.mark.parametrize(
     ("which", "opening", "given", "expected"),
     [
@@ -426,13 +427,22 @@ class WholeMatch:
     ],
 )
 def test_a_match_as_wholes_is_less_probable_by_what_is_missing_of_one_shape(
-    monkeypatch, small, which, opening, given, expected
+    monkeypatch, small, which, opening, given, expected, stated
 ):
     parts_tried(monkeypatch, dict.fromkeys(("target", "source")))
     monkeypatch.setattr(match_module, "_match_wholes", lambda *_: WholeMatch(confidence=given))
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection(which, "open", opening))
-    found = match_module.match(small, small, AUTO)
+    found = match_module.match(small, small, replace(AUTO, partial=replace(AUTO.partial, part=stated)))
     assert (found.confidence, found.verdict) == (expected[0] and pytest.approx(expected[0]), expected[1])
+
+
+@pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])
+def test_so_it_is_where_a_part_was_stated_and_wholes_fit_better(monkeypatch, small, opening, expected):
+    parts_tried(monkeypatch, {"target": fake_match("ambiguous", 0.4)})
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: WholeMatch())
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", opening))
+    found = match_module.match(small, small, replace(AUTO, partial=replace(AUTO.partial, part="target")))
+    assert (found.confidence, found.verdict) == (pytest.approx(expected[0]), expected[1])
 
 
 def parts_tried(monkeypatch: pytest.MonkeyPatch, answers: dict[str, Any]) -> list[str]:

@@ -115,12 +115,18 @@ def _match_detected(
             return best
         part = _match_clear_part(task, detection)
         return part or _more_probable(best, _match_as(task, "both", detection.reason))
-    best = _match_open(task, which, detection, wholes, tried)
-    if best.partial.which != "none":
-        return best
-    # Nothing is known about what is missing of one shape.
-    confidence, verdict = lower_probability(best.confidence, best.verdict, min(detection.opening, 1.0))
-    return replace(best, confidence=confidence, verdict=verdict)
+    return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
+
+
+def _lower_open(match: Match, detection: PartDetection) -> Match:
+    """Return a match as wholes with a lower probability where one shape is open; any other as it is.
+
+    Nothing is known about what is missing.
+    """
+    if match.partial.which != "none" or detection.which not in ("source", "target"):
+        return match
+    confidence, verdict = lower_probability(match.confidence, match.verdict, min(detection.opening, 1.0))
+    return replace(match, confidence=confidence, verdict=verdict)
 
 
 def _match_open(
@@ -167,18 +173,21 @@ def _match_stated(
     Where it is not "sure" and the boundaries suggest something else, the match that these suggest is the answer if it
     is "sure" or "likely", and more probable: a wrong statement makes no map worse.
     """
-    best = wholes(MatchPart()) if stated == "none" else _match_as(task, stated, "as asked for")
-    if best.verdict == "sure" or task.config.search is None:
-        return best
+    found = wholes(MatchPart()) if stated == "none" else _match_as(task, stated, "as asked for")
+    if task.config.search is None:
+        return found
     detection = _detect_part(task)
+    best = _lower_open(found, detection)
+    if best.verdict == "sure":
+        return best
     is_cut = not _may_be_whole(detection)
     is_part = detection.which == stated and (is_cut or stated == "both" or _is_small_part(best))
     if is_part or (stated == "none" and not is_cut):
         return best
     if stated == "none":
-        other = _match_detected(task, detection, lambda _: best)
+        other = _match_detected(task, detection, lambda _: found)
     elif detection.which in ("none", stated):
-        other = wholes(MatchPart(reason=_FIT_AS_WHOLES, suspected=True))
+        other = _lower_open(wholes(MatchPart(reason=_FIT_AS_WHOLES, suspected=True)), detection)
     else:
         other = _match_detected(task, detection, wholes, stated)
     return _more_probable(best, other) if other.verdict in ("sure", "likely") else best
