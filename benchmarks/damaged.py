@@ -1,6 +1,7 @@
 """Meshes damaged as scans and exports are, matched with clean ones: errors and verdicts.
 
     python benchmarks/damaged.py --data DIR [--sets FAUST_r,TOSCA_r] [--half report] [--pairs 2] [--damage floor,spikes]
+        [--partial auto]
 
 Each target is damaged in one way at a time; "clean" is the map without damage. Errors are mean geodesic distances on
 the source × 100, of the vertices with a truth, each at the damaged mesh's nearest vertex. DIR is as for
@@ -253,8 +254,10 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
 def main() -> None:
     parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,SMAL_r", 1, "report")
     parser.add_argument("--damage", default=",".join(DAMAGES))
+    parser.add_argument("--partial", default="auto", help="which shape is stated to be a part")
     arguments = parser.parse_args()
-    config = replace(kfmaps.Config(), threads=1)
+    config = kfmaps.Config(threads=1)
+    config = replace(config, partial=replace(config.partial, part=arguments.partial))
     print(f"{'pair':34}{'damage':16}{'vertices':>9}{'error':>7}  {'verdict':11}{'told':>6}{'CPU s':>7}  warnings")
     for job in chosen_jobs(arguments, seed=1):
         source, target, true_s, true_t = loaded(job)
