@@ -201,6 +201,27 @@ def _hollow(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
     return _with_pieces(mesh, [Mesh(mesh.vertices - 0.03 * vertex_normals(mesh), mesh.faces[:, ::-1])])
 
 
+def _partitions(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
+    """With cones inside, across the longest axis at ten heights, as between the regions of a segmented image."""
+    axis, faces = int(np.argmax(np.ptp(mesh.vertices, axis=0))), mesh.faces
+    height = mesh.vertices[:, axis]
+    one, two = half_edges_by_edge(faces, len(height))[1]
+    ends = np.stack([faces.ravel()[one], faces[:, [1, 2, 0]].ravel()[one]], axis=1)
+    walls, tips, n = [faces], [mesh.vertices], len(height)
+    for level in np.linspace(height.min(), height.max(), 12)[1:-1]:
+        is_above = height[faces].mean(axis=1) > level
+        loops = ends[is_above[one // 3] != is_above[two // 3]]
+        loop = component_labels(len(height), loops[:, 0], loops[:, 1])[1][loops[:, 0]]
+        for number in np.unique(loop):
+            border = loops[loop == number]
+            walls.append(np.column_stack([border, np.full(len(border), n)]))
+            tips.append(mesh.vertices[np.unique(border)].mean(axis=0, keepdims=True))
+            n += 1
+    before = np.concatenate(tips)
+    before[len(height) :] = np.nan
+    return Mesh(np.concatenate(tips), np.concatenate(walls)), before
+
+
 def _floor(mesh: Mesh, _rng: np.random.Generator) -> Damaged:
     """A square of a third of the area below the shape, as the floor of a scan."""
     axis = int(np.argmax(np.ptp(mesh.vertices, axis=0)))
@@ -246,6 +267,7 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "specks": _specks,
     "balls inside": _balls_inside,
     "hollow": _hollow,
+    "partitions": _partitions,
     "floor": _floor,
     "far away": _far_away,
 }

@@ -47,6 +47,10 @@ MUTANTS = tuple(
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
         ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),
+        ("leaves, len(areas)) < _MAX_SEEN * n_rays", "leaves, len(areas)) > _MAX_SEEN * n_rays", "test_outer_surface"),
+        ("_OFFSET * directions", "0 * directions", "test_outer_surface -k partition"),
+        ("repairs[:i] + repairs[i + 1 :])", "repairs[i + 1 :])", "test_outer_surface -k earlier"),
+        ("for edges in (boundary, shared):", "for edges in (boundary,):", "test_cleaning -k fin"),
         ("alignment >= _MIN_ALIGNMENT", "alignment >= -_MIN_ALIGNMENT", "test_holes"),
         ("opening_area(filled) >= _MIN_SHARE * opening", "opening_area(filled) >= 0", "test_holes"),
         ("min(detection.opening, 1.0))", "1 - min(detection.opening, 1.0))", "test_parts -k less_probable"),

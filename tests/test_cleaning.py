@@ -352,6 +352,35 @@ def test_specks_are_told_by_their_part_of_the_area() -> None:
     assert clean_mesh(leaves, specks=True).mesh is leaves  # equals of each other
 
 
+@pytest.mark.parametrize(("factor", "specks"), [(0.9, 1), (1.1, 0)])
+def test_a_small_fin_is_a_speck(factor, specks) -> None:
+    """A triangle that stands on an edge of the surface."""
+    mesh = blob(300)
+    a, b = mesh.vertices[mesh.faces[7, :2]]
+    height = 2 * factor * _MAX_SPECK_AREA * surface_area(mesh) / np.linalg.norm(a - b)
+    across = np.cross(b - a, np.ones(3))
+    tip = (a + b) / 2 + height * across / np.linalg.norm(across)
+    finned = Mesh(np.vstack([mesh.vertices, tip]), np.vstack([mesh.faces, [*mesh.faces[7, :2], 300]]))
+    part = clean_mesh(finned, specks=True)
+    assert part.specks == specks
+    np.testing.assert_array_equal(part.faces_to_original, np.arange(len(finned.faces) - specks))
+    assert clean_mesh(finned).mesh is finned
+
+
+def test_a_patch_at_a_hole_or_without_an_open_edge_is_no_fin() -> None:
+    mesh = blob(300)
+    a, b, c = mesh.faces[7]
+    tent = Mesh(
+        np.vstack([mesh.vertices, 1.02 * mesh.vertices[[a, b, c]].mean(axis=0)]),
+        np.vstack([mesh.faces, [[a, b, 300], [b, c, 300], [c, a, 300]]]),
+    )
+    assert clean_mesh(tent, specks=True).specks == 0
+    around = (np.isin(tent.faces, tent.faces[400])).sum(axis=1) == 2
+    assert around.sum() == 3
+    island = Mesh(tent.vertices, tent.faces[~around])  # the triangle hangs on by its corners
+    assert clean_mesh(island, specks=True).specks == 0
+
+
 def test_edges_of_no_length_connect_nothing() -> None:
     vertices = np.array([[0.0, 0, 0], [0, 0, 0], [1, 0, 0], [0, 0, 0], [0, 0, 0], [0, 1, 0]])
     needles = Mesh(vertices, np.array([[0, 1, 2], [3, 4, 5]]))

@@ -15,11 +15,17 @@ from kfmaps._arrays import KfmapsWarning
 from kfmaps.datasets import sphere
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
+from kfmaps.geometry.connectivity import boundary_edges
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
-from kfmaps.geometry.outer_surface import _is_in_touching_pieces, outer_surface, without_inner_walls
+from kfmaps.geometry.outer_surface import (
+    _is_in_touching_pieces,
+    outer_surface,
+    without_inner_walls,
+    without_partitions,
+)
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
-from kfmaps.shape import prepare
+from kfmaps.shape import _repaired, prepare
 
 GUARDS = ("kfmaps.geometry.outer_surface", "kfmaps.shape", "kfmaps.matching.reindexing")
 
@@ -187,3 +193,63 @@ def test_holes_beside_inner_walls_are_filled() -> None:
         shape = prepare(mesh, SMALL)
     assert shape.extent == pytest.approx(np.sqrt(surface_area(body)), rel=0.01)
     assert topology(shape.cleaned[0].mesh).is_closed
+
+
+def partitioned(mesh: Mesh) -> Mesh:
+    """With a cone across it, between its faces on both sides of a plane."""
+    is_left = mesh.vertices[mesh.faces].mean(axis=1)[:, 0] < 0
+    border = boundary_edges(mesh.faces[is_left], len(mesh.vertices))
+    cone = np.column_stack([border, np.full(len(border), len(mesh.vertices))])
+    tip = mesh.vertices[np.unique(border)].mean(axis=0, keepdims=True)
+    return Mesh(np.concatenate([mesh.vertices, tip]), np.concatenate([mesh.faces, cone]))
+
+
+def test_partitions_are_left_out() -> None:
+    body = unit_area(blob(900))
+    mesh = unit_area(partitioned(body))
+    rest = without_partitions(mesh)
+    assert rest is not None
+    np.testing.assert_array_equal(rest.faces, body.faces)
+    np.testing.assert_array_equal(rest.vertices, mesh.vertices)
+    turned = np.random.default_rng(0).random(len(mesh.faces)) < 0.5
+    mixed = without_partitions(Mesh(mesh.vertices, np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)))
+    assert mixed is not None
+    assert len(mixed.faces) == len(body.faces)
+
+
+def test_what_can_be_seen_from_outside_is_no_partition() -> None:
+    body = unit_area(blob(900))
+    mesh = unit_area(partitioned(body))
+    assert without_partitions(body) is None
+    is_far = mesh.vertices[mesh.faces].mean(axis=1)[:, 0] > 0.05
+    assert without_partitions(Mesh(mesh.vertices, mesh.faces[~is_far])) is None  # one side of the wall is open
+
+
+def test_a_body_with_a_partition_is_matched_as_the_body() -> None:
+    body, other = blob(900), blob(900, twist=0.4)
+    clean = match(body, other, SMALL, landmarks=MARKS)
+    with pytest.warns(KfmapsWarning, match="partitions of its inside are left out"):
+        found = match(partitioned(body), other, SMALL, landmarks=MARKS)
+    np.testing.assert_allclose(found.functional_map, clean.functional_map, atol=1e-6)
+    assert geodesic_errors(body, found.target_to_source, clean.target_to_source).mean() < 1e-3
+
+
+def test_a_repair_may_make_an_earlier_one_possible() -> None:
+    """As filled holes let a floor be found; each is made once."""
+    body, made = unit_area(blob(300)), []
+
+    def repair(name: str, after: str | None = None):
+        def apply(mesh: Mesh) -> Mesh | None:
+            assert surface_area(mesh) == pytest.approx(1)
+            if after not in (None, *made):
+                return None
+            made.append(name)
+            return Mesh(mesh.vertices * 2, mesh.faces[1:])
+
+        return apply, name
+
+    surface, changes = _repaired(body, (repair("floor", after="holes"), repair("walls"), repair("holes")))
+    assert changes == ["walls", "holes", "floor"] == made
+    np.testing.assert_allclose(surface.vertices, 8 * body.vertices)
+    np.testing.assert_array_equal(surface.faces, body.faces[3:])
+    assert _repaired(body, (repair("floor", after="never"),)) == (body, [])

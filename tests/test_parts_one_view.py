@@ -9,9 +9,9 @@ from scipy.spatial import KDTree
 from kfmaps import datasets
 from kfmaps.config import Partial
 from kfmaps.datasets import largest_piece
-from kfmaps.geometry.mesh import Mesh, face_normals, surface_area, unit_area, vertex_normals
+from kfmaps.geometry.mesh import Mesh, face_normals, spread_directions, surface_area, unit_area, vertex_normals
 from kfmaps.matching.partial.detect import detect_part
-from kfmaps.matching.partial.one_view import _spread_directions, is_view_of, views
+from kfmaps.matching.partial.one_view import is_view_of, views
 from kfmaps.matching.partial.place_part import PartTask, place_part
 from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, shot_similarity
@@ -57,7 +57,7 @@ def test_a_few_normals_may_be_turned_away(turned_away, is_view):
 
 
 def test_views_are_what_is_turned_to_directions_all_around():
-    directions = _spread_directions(24)
+    directions = spread_directions(24)
     np.testing.assert_allclose(np.linalg.norm(directions, axis=1), 1.0)
     apart = np.sort(np.degrees(np.arccos(np.clip(directions @ directions.T, -1, 1))), axis=1)[:, 1]
     assert apart.min() > 30 > 0.5 * apart.max()

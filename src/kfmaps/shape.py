@@ -26,7 +26,7 @@ from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
-from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls
+from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls, without_partitions
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 
 EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
@@ -35,6 +35,15 @@ MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
 MIN_SEARCH_VERTICES = 1_000
 """Number of vertices below which the faces of a surface are divided for a search."""
+Repair = tuple[Callable[[Mesh], Mesh | None], str]
+REPAIRS: tuple[Repair, ...] = (
+    (without_floor, "the floor is left out"),
+    (without_inner_walls, "surfaces inside it are left out"),
+    (without_partitions, "partitions of its inside are left out"),
+    (outer_surface, "pieces that overlap count as the surface around them"),
+    (fill_holes, "small holes are filled"),
+)
+"""What is done to a cleaned mesh where it is possible, and what is told of it."""
 _BALL_SUPPORT = 550  # most support points of SHOT in one ball on average
 _NORMAL_WEIGHT = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
@@ -193,7 +202,10 @@ def prepare(
     unit = unit_area(cleaned.mesh)
     _check_size(unit, name, config)
     extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
-    surface, repairs = _repaired(unit, config.descriptors.shot)
+    if is_cloud:
+        surface, repairs = (surface_of_cloud(unit.vertices) if config.descriptors.shot else None), []
+    else:
+        surface, repairs = _repaired(unit)
     _warn_of_cleaning(cleaned, name, noisy, repairs)
     if is_cloud and config.descriptors.shot and surface is None:
         text = (
@@ -201,7 +213,7 @@ def prepare(
             "right cannot be told apart: give three landmarks, or a mesh made from the points"
         )
         warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=2)
-    if surface is not None:
+    if surface is not None and surface is not unit:
         given_faces, extent = mesh.faces, extent and extent * float(np.sqrt(surface_area(surface)))
         mesh = _with_faces_of(surface, mesh, cleaned)
         cleaned = face_outward(clean_mesh(mesh, specks=True))
@@ -298,28 +310,18 @@ def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
     return Mesh(vertices, mesh.faces)
 
 
-def _repaired(mesh: Mesh, clouds: bool) -> tuple[Mesh | None, list[str]]:
-    """Return the surface that is matched instead of a cleaned ``mesh``, or ``None``, and what is done to a mesh.
+def _repaired(mesh: Mesh, repairs: tuple[Repair, ...] = REPAIRS) -> tuple[Mesh, list[str]]:
+    """Return the surface that is matched instead of a cleaned ``mesh`` of unit area, and what was done to it.
 
-    ``mesh``: of unit area; ``clouds``: whether a surface through the points of a point cloud is wanted.
+    Each of ``repairs`` that is possible is made once; what it changes may make an earlier one possible.
     """
-    if len(mesh.faces) == 0:
-        return (surface_of_cloud(mesh.vertices) if clouds else None), []
-    scale, changes = 1.0, []
-    for without, change in ((without_floor, "the floor is"), (without_inner_walls, "surfaces inside it are")):
-        rest = without(mesh)
-        if rest is not None:
-            factor = float(np.sqrt(surface_area(rest)))
-            mesh = Mesh(rest.vertices / factor, rest.faces)
-            scale, changes = scale * factor, [*changes, f"{change} left out"]
-    surface = outer_surface(mesh)
-    if surface is not None:
-        changes.append("pieces that overlap count as the surface around them")
-    else:
-        surface = fill_holes(mesh)
-        changes += ["small holes are filled"] * (surface is not None)
-    mesh = surface or mesh
-    return Mesh(scale * mesh.vertices, mesh.faces) if changes else None, changes
+    for i, (repair, change) in enumerate(repairs):
+        found = repair(mesh)
+        if found is not None:
+            factor = float(np.sqrt(surface_area(found)))
+            rest, changes = _repaired(Mesh(found.vertices / factor, found.faces), repairs[:i] + repairs[i + 1 :])
+            return Mesh(factor * rest.vertices, rest.faces), [change, *changes]
+    return mesh, []
 
 
 def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repairs: list[str]) -> None:

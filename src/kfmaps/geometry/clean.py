@@ -10,14 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.connectivity import proper_faces, renumbering
+from kfmaps.geometry.connectivity import half_edges_by_edge, manifold_patches, proper_faces, renumbering
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
-from kfmaps.geometry.mesh import Mesh, component_areas
+from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
 from kfmaps.geometry.subdivision import interpolating_subdivision
 from kfmaps.geometry.weld import weld_vertices
 
 _MAX_SPECK_AREA = 0.005
-"""Area of a component, over that of the largest, below which it is a speck: that of one of 200 samples."""
+"""Area of a component or fin, over that of the largest component, below which it is a speck: one of 200 samples."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +30,7 @@ class CleanedMesh:
     unreferenced: np.ndarray  # (n,) bool: original vertices that no face uses; they have the number of the nearest
     faces_to_original: np.ndarray  # (g,): original number of each face, ascending
     n_welded: int = 0  # original vertices that are welded to another one
-    specks: int = 0  # components left out
+    specks: int = 0  # components and fins left out
     doubled: int = 0  # faces left out that coincide with another one
     turned: np.ndarray | None = None  # (g,) bool: faces with the orientation reversed; ``None`` where none is
     # (g, 3, 3): barycentric coordinates of each face's corners in the face that it is a piece of; ``None`` where faces
@@ -46,8 +46,8 @@ class CleanedMesh:
 def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
     """Return a mesh with its vertices welded, without degenerate faces and vertices that no other face uses.
 
-    ``mesh``: its face numbers within range; ``specks``: whether to leave out components whose area is less than 0.5 %
-    of the largest one's.
+    ``mesh``: its face numbers within range; ``specks``: whether to leave out components, and fins that stand on an
+    edge, whose area is less than 0.5 % of that of the largest component.
     """
     n = len(mesh.vertices)
     first = weld_vertices(mesh)
@@ -122,8 +122,22 @@ def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:
-    """Return which faces lie on no speck, (f,) bool, and the number of specks."""
+    """Return which faces lie on no speck, (f,) bool, and the number of specks.
+
+    A patch that stands on an edge of two others and has an open edge is one, too.
+    """
     label, areas = component_areas(mesh)
     component = label[mesh.faces[:, 0]]
-    is_speck = areas < _MAX_SPECK_AREA * areas.max(initial=0.0)
-    return ~is_speck[component], int(is_speck[np.bincount(component, minlength=len(areas)) > 0].sum())
+    max_area = _MAX_SPECK_AREA * areas.max(initial=0.0)
+    is_body = (areas >= max_area)[component]
+    count = len(np.unique(component[~is_body]))
+    boundary, pairs, edge_counts = half_edges_by_edge(mesh.faces, len(mesh.vertices))
+    if edge_counts.max(initial=0) > 2:
+        patch = manifold_patches(mesh.faces, len(mesh.vertices))
+        shared = np.delete(np.arange(mesh.faces.size), np.r_[boundary, pairs.ravel()])
+        is_fin = np.bincount(patch, face_areas(mesh)) < max_area
+        for edges in (boundary, shared):
+            is_fin &= np.bincount(patch[edges // 3], minlength=len(is_fin)) > 0
+        count += int(is_fin.sum())
+        is_body &= ~is_fin[patch]
+    return is_body, count

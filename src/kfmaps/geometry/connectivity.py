@@ -67,6 +67,15 @@ def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarra
     return order[start[counts == 1]], np.stack([order[two], order[two + 1]]), counts
 
 
+def manifold_patches(faces: np.ndarray, n: int) -> np.ndarray:
+    """Return for each of ``faces (f, 3)`` its patch, (f,): edges of two faces join the faces of one.
+
+    ``n``: number of vertices.
+    """
+    one, two = half_edges_by_edge(faces, n)[1] // 3
+    return component_labels(len(faces), one, two)[1]
+
+
 def _edge_keys(faces: np.ndarray, n: int) -> np.ndarray:
     """Return one number for the edge of each half-edge, (3 f,), which sorts ten times as fast as a pair."""
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()

@@ -73,6 +73,13 @@ def unit_rows(vectors: np.ndarray) -> np.ndarray:
     return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
 
 
+def spread_directions(count: int) -> np.ndarray:
+    """Return unit vectors (count, 3) spread evenly: a spiral on the sphere with the golden angle between them."""
+    z = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.pi * (3 - np.sqrt(5)) * np.arange(count)
+    return np.stack([*(np.sqrt(1 - z**2) * (np.cos(turn), np.sin(turn))), z], axis=1)
+
+
 def face_areas(mesh: Mesh) -> np.ndarray:
     """Return the area of each face, (f,) float64, in squared units of the vertices."""
     return 0.5 * np.linalg.norm(_face_vectors(mesh), axis=1)

@@ -11,14 +11,26 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.cloud_surface import surface_of_cloud
-from kfmaps.geometry.connectivity import component_labels, mesh_edges, unique_vertices
-from kfmaps.geometry.mesh import Mesh, component_areas, vertex_normals
+from kfmaps.geometry.connectivity import component_labels, manifold_patches, mesh_edges, unique_vertices
+from kfmaps.geometry.mesh import (
+    Mesh,
+    component_areas,
+    face_areas,
+    face_normals,
+    spread_directions,
+    vertex_normals,
+)
 
 _WHOLE_AREA = 0.95
 """Share of the area above which one piece, pieces that touch, or one closed surface are taken for the whole shape."""
 _MIN_INSIDE, _N_OUTER = 0.8, 3
 """Least share of the vertices of a component that are inside another, of which it is an inner wall then, and the number
 of components, the widest, in which others may be."""
+_MIN_PARTITION, _MAX_SEEN = 0.005, 0.05
+"""Least share of the area of a partition, and most of the rays from it that leave the shape."""
+_N_FACES, _N_RAYS, _MIN_COSINE, _OFFSET = 50, 48, 0.1, 1e-4
+"""Most faces of a patch that rays start from, rays from each, their least cosine with the normal, either way, and the
+distance from the face, in √area, where they start."""
 _DEPTH = 0.007
 """Height above the surface, in √area, where a vertex is asked whether it is inside: about half an edge."""
 
@@ -45,6 +57,35 @@ def without_inner_walls(mesh: Mesh) -> Mesh | None:
     if not is_inner[pieces].any() or is_inner[pieces].all():  # open surfaces may seem to be inside each other
         return None
     return Mesh(mesh.vertices, mesh.faces[~is_inner[component]])
+
+
+def without_partitions(mesh: Mesh) -> Mesh | None:
+    """Return a mesh without partitions of its inside, as between the regions of a segmented image, or ``None``.
+
+    ``mesh``: cleaned, of unit area. A partition is a patch between edges of more than two faces that cannot be seen
+    from outside: rays from both of its sides hit the surface.
+    """
+    vertices, faces = mesh.vertices, mesh.faces
+    patch = manifold_patches(faces, len(vertices))
+    areas = np.bincount(patch, face_areas(mesh))
+    wide = np.flatnonzero(areas >= _MIN_PARTITION * areas.sum())
+    if len(wide) < 2:
+        return None
+    of_patches = [np.flatnonzero(patch == number) for number in wide]
+    starts = np.concatenate([rows[:: 1 + len(rows) // _N_FACES] for rows in of_patches])
+    row, directions = np.repeat(starts, _N_RAYS), np.tile(spread_directions(_N_RAYS), (len(starts), 1))
+    # Rays along the surface would hit its next fold.
+    is_steep = np.abs(np.einsum("ij,ij->i", directions, face_normals(mesh)[row])) > _MIN_COSINE
+    row, directions = row[is_steep], directions[is_steep]
+    tree = igl.AABB()
+    tree.init(vertices, faces)
+    origins = vertices[faces[row]].mean(axis=1) + _OFFSET * directions
+    leaves = np.asarray(tree.intersect_ray_first(vertices, faces, origins, directions)[0]) < 0
+    n_rays = np.bincount(patch[row], minlength=len(areas))
+    is_partition = np.bincount(patch[row], leaves, len(areas)) < _MAX_SEEN * n_rays
+    if not is_partition.any() or is_partition[wide].all():
+        return None
+    return Mesh(vertices, faces[~is_partition[patch]])
 
 
 def outer_surface(mesh: Mesh) -> Mesh | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps.geometry.mesh import Mesh, face_areas, face_normals
+from kfmaps.geometry.mesh import Mesh, face_areas, face_normals, spread_directions
 
 _DIRECTIONS = 24
 """Directions that the whole is seen from."""
@@ -36,11 +36,4 @@ def views(mesh: Mesh) -> np.ndarray:
 
     What hides them does not count: bodies of other poses hide other things.
     """
-    return _spread_directions(_DIRECTIONS) @ face_normals(mesh).T > _LEAST_COSINE
-
-
-def _spread_directions(count: int) -> np.ndarray:
-    """Return unit vectors (count, 3) spread evenly: a spiral on the sphere with the golden angle between them."""
-    z = 1 - (2 * np.arange(count) + 1) / count
-    turn = np.pi * (3 - np.sqrt(5)) * np.arange(count)
-    return np.stack([*(np.sqrt(1 - z**2) * (np.cos(turn), np.sin(turn))), z], axis=1)
+    return spread_directions(_DIRECTIONS) @ face_normals(mesh).T > _LEAST_COSINE
