@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import ConvexHull
 
 from conftest import NO_FACES, blob, joined, small_fit
 from kfmaps._arrays import InvalidInput, KfmapsWarning
@@ -16,7 +17,7 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.clean import _MAX_SPECK_AREA, clean_mesh
+from kfmaps.geometry.clean import _MAX_SPECK_AREA, _body_faces, clean_mesh, flatten_spikes
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
@@ -378,7 +379,47 @@ def test_a_patch_at_a_hole_or_without_an_open_edge_is_no_fin() -> None:
     around = (np.isin(tent.faces, tent.faces[400])).sum(axis=1) == 2
     assert around.sum() == 3
     island = Mesh(tent.vertices, tent.faces[~around])  # the triangle hangs on by its corners
-    assert clean_mesh(island, specks=True).specks == 0
+    assert _body_faces(island)[1] == 0
+
+
+def spiky(mesh: Mesh, height: float, vertices: list[int]) -> Mesh:
+    """With some vertices moved outward, by ``height`` times the mean length of edges."""
+    edges = mesh.vertices[mesh.faces] - mesh.vertices[np.roll(mesh.faces, 1, axis=1)]
+    moved = mesh.vertices.copy()
+    length = np.linalg.norm(edges, axis=2).mean()
+    moved[vertices] += height * length * moved[vertices] / np.linalg.norm(moved[vertices], axis=1, keepdims=True)
+    return Mesh(moved, mesh.faces)
+
+
+def test_spikes_are_flattened() -> None:
+    mesh = blob(900)
+    flat, count = flatten_spikes(spiky(mesh, 6.0, [3, 450]))
+    assert count == 2
+    beside = np.setdiff1d(mesh.faces[(mesh.faces == 450).any(axis=1)], 450)
+    np.testing.assert_allclose(flat.vertices[450], mesh.vertices[beside].mean(axis=0))
+    others = np.setdiff1d(np.arange(900), [3, 450])
+    np.testing.assert_array_equal(flat.vertices[others], mesh.vertices[others])
+    assert flatten_spikes(mesh) == (mesh, 0)
+    low = spiky(mesh, 3.0, [450])
+    assert flatten_spikes(low)[0] is low
+    corners = np.concatenate([np.eye(3), -np.eye(3)])
+    octahedron = Mesh(corners, ConvexHull(corners).simplices.astype(np.int64))
+    coarse = joined(mesh, placed(octahedron, 1.0))  # neighbours are as far away as the vertices are high
+    assert flatten_spikes(coarse)[1] == 0
+
+
+def test_slivers_at_a_boundary_are_no_spikes() -> None:
+    mesh = spiky(blob(900), 6.0, [450])
+    beside = np.flatnonzero((mesh.faces == 450).any(axis=1))
+    assert flatten_spikes(Mesh(mesh.vertices, np.delete(mesh.faces, beside[0], axis=0)))[1] == 0
+
+
+def test_a_body_with_spikes_is_matched_as_the_body(plain) -> None:
+    source, target = (spiky(mesh, 8.0, [33, 77, 222]) for mesh in (plain.source, plain.target))
+    with pytest.warns(KfmapsWarning, match="for the match 3 spikes are flattened; the numbering is kept"):
+        found = match(source, target, SMALL, landmarks=MARKS)
+    errors = geodesic_errors(plain.source, found.target_to_source, plain.target_to_source)
+    assert np.delete(errors, [33, 77, 222]).mean() < 0.03
 
 
 def test_edges_of_no_length_connect_nothing() -> None:

@@ -20,7 +20,7 @@ from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
-from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward
+from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward, flatten_spikes
 from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.floor import without_floor
@@ -181,11 +181,11 @@ def prepare(
 ) -> Shape:
     """Compute what depends on one shape alone, so that matches with many others share it.
 
-    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out
-    (:mod:`kfmaps.geometry.clean`), and so are a floor (:mod:`kfmaps.geometry.floor`) and surfaces inside another.
-    Pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`), small holes are filled
-    (:mod:`kfmaps.geometry.holes`), and much noise is smoothed (:func:`kfmaps.geometry.cloud_surface.project_noise`). A
-    warning says so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and
+    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out, and
+    spikes flattened (:mod:`kfmaps.geometry.clean`). A floor (:mod:`kfmaps.geometry.floor`), surfaces inside another and
+    partitions are left out, too. Pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`), small holes are
+    filled (:mod:`kfmaps.geometry.holes`), and much noise is smoothed
+    (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and
     refinement settings count.
     """
     config = config or Config()
@@ -193,6 +193,8 @@ def prepare(
     timer = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud, given_faces = len(mesh.faces) == 0, None
+    flat, n_spikes = flatten_spikes(cleaned.mesh)
+    cleaned = replace(cleaned, mesh=flat)
     max_roughness = 0.24  # above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much
     # Edges of coarse meshes are as sharp as noise.
     noisy = not is_cloud and len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES
@@ -206,7 +208,7 @@ def prepare(
         surface, repairs = (surface_of_cloud(unit.vertices) if config.descriptors.shot else None), []
     else:
         surface, repairs = _repaired(unit)
-    _warn_of_cleaning(cleaned, name, noisy, repairs)
+    _warn_of_cleaning(cleaned, name, n_spikes, noisy, repairs)
     if is_cloud and config.descriptors.shot and surface is None:
         text = (
             "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
@@ -324,7 +326,7 @@ def _repaired(mesh: Mesh, repairs: tuple[Repair, ...] = REPAIRS) -> tuple[Mesh, 
     return mesh, []
 
 
-def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repairs: list[str]) -> None:
+def _warn_of_cleaning(cleaned: CleanedMesh, name: str, n_spikes: int, noisy: bool, repairs: list[str]) -> None:
     """Warn once of what is connected, left out, turned, smoothed or repaired."""
     welded = ("vertex on a seam is connected", "vertices on seams are connected")
     if len(cleaned.mesh.faces) == 0:
@@ -332,6 +334,7 @@ def _warn_of_cleaning(cleaned: CleanedMesh, name: str, noisy: bool, repairs: lis
     found: tuple[tuple[int, str, str], ...] = (
         (cleaned.n_welded, welded[0], welded[1]),
         (cleaned.specks, "speck is left out", "specks are left out"),
+        (n_spikes, "spike is flattened", "spikes are flattened"),
         (cleaned.doubled, "second side of a face is left out", "second sides of faces are left out"),
     )
     changes = [plural(*one) for one in found if one[0]]

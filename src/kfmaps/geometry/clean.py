@@ -1,4 +1,4 @@
-"""Mesh cleaning: seams are welded (:mod:`kfmaps.geometry.weld`), unused vertices and specks are left out.
+"""Mesh cleaning: seams are welded (:mod:`kfmaps.geometry.weld`), unused vertices and specks left out, spikes flattened.
 
 A :class:`CleanedMesh` has the numbers of the given vertices and of those that are left.
 """
@@ -10,7 +10,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.connectivity import half_edges_by_edge, manifold_patches, proper_faces, renumbering
+from kfmaps.geometry.connectivity import (
+    half_edges_by_edge,
+    manifold_patches,
+    mesh_edges,
+    proper_faces,
+    renumbering,
+)
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
 from kfmaps.geometry.subdivision import interpolating_subdivision
@@ -18,6 +24,10 @@ from kfmaps.geometry.weld import weld_vertices
 
 _MAX_SPECK_AREA = 0.005
 """Area of a component or fin, over that of the largest component, below which it is a speck: one of 200 samples."""
+
+_MIN_SPIKE, _MIN_SHARPNESS = 4.0, 1.5
+"""Least height of a spike over the mean length of the edges, and over the mean distance of its neighbours from their
+mean."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +101,25 @@ def face_outward(part: CleanedMesh) -> CleanedMesh:
     if not turned.any():
         return part
     return replace(part, mesh=Mesh(part.mesh.vertices, turn_faces(faces, turned)), turned=turned)
+
+
+def flatten_spikes(mesh: Mesh) -> tuple[Mesh, int]:
+    """Return a cleaned mesh with the vertices that stick out of it moved to the mean of their neighbours, and how many.
+
+    Such a vertex is farther from that mean than the neighbours are on average, and than edges are long. Vertices on
+    boundaries stay, since slivers remain where a surface is cut.
+    """
+    n, v = len(mesh.vertices), mesh.vertices
+    edges, n_faces = mesh_edges(mesh.faces, n)
+    a, b = np.concatenate([edges, edges[:, ::-1]]).T
+    degree = np.bincount(a, minlength=n).clip(1)
+    mean = np.stack([np.bincount(a, x[b], n) for x in v.T], axis=1) / degree[:, None]
+    height = np.linalg.norm(v - mean, axis=1)
+    width = np.bincount(a, np.linalg.norm(v[b] - mean[a], axis=1), n) / degree
+    length = np.linalg.norm(v[edges[:, 0]] - v[edges[:, 1]], axis=1)
+    is_spike = (height > _MIN_SPIKE * length.mean()) & (height > _MIN_SHARPNESS * width)
+    is_spike[edges[n_faces == 1]] = False
+    return (Mesh(np.where(is_spike[:, None], mean, v), mesh.faces) if is_spike.any() else mesh), int(is_spike.sum())
 
 
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:

@@ -1,4 +1,4 @@
-"""The outer surface of a shape in pieces: without inner walls, around limbs stuck into a trunk and scans that overlap.
+"""The outer surface of a shape: without inner walls and partitions, around pieces that are stuck together or overlap.
 
 Inside is where the winding number is above one half (Jacobson, Kavan and Sorkine-Hornung, Robust inside-outside
 segmentation using generalized winding numbers, 2013).
