@@ -185,8 +185,8 @@ def prepare(
     spikes flattened (:mod:`kfmaps.geometry.clean`). A floor (:mod:`kfmaps.geometry.floor`), surfaces inside another and
     partitions are left out, too. Pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`), small holes are
     filled (:mod:`kfmaps.geometry.holes`), and much noise is smoothed
-    (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and
-    refinement settings count.
+    (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is
+    a point cloud. ``config``: its basis, descriptor and refinement settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
