@@ -46,6 +46,7 @@ MUTANTS = tuple(
         ("outer = used[is_outer[used]]", "outer = np.flatnonzero(is_outer)", "test_floor"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
+        ("is_inner[outer if is_box else inner]", "is_inner[inner]", "test_outer_surface -k box"),
         ("_EDGE_COST * (a + b)", "_EDGE_COST * (a - b)", "test_holes"),
         ("leaves, len(areas)) < _MAX_SEEN * n_rays", "leaves, len(areas)) > _MAX_SEEN * n_rays", "test_outer_surface"),
         ("+ _OFFSET * directions", "- _OFFSET * directions", "test_outer_surface -k partition"),

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from itertools import product
 
 import igl
 import numpy as np
 import pytest
-from scipy.spatial import KDTree
+from scipy.spatial import ConvexHull, KDTree
 
 from conftest import blob, joined, shifted, small_fit
 from kfmaps._arrays import KfmapsWarning
@@ -158,6 +159,17 @@ def test_walls_and_balls_inside_are_left_out(inward, is_first) -> None:
     assert without_inner_walls(unit_area(body)) is None
 
 
+def test_of_a_box_around_a_shape_the_shape_is_left() -> None:
+    corners = np.array(list(product((-3.0, 3.0), repeat=3)))
+    box, body = Mesh(corners, ConvexHull(corners).simplices.astype(np.int64)), blob(900)
+    rest = without_inner_walls(unit_area(joined(box, body)))
+    assert rest is not None
+    np.testing.assert_array_equal(rest.faces, body.faces + 8)
+    eye = without_inner_walls(unit_area(joined(box, Mesh(0.1 * corners, box.faces))))
+    assert eye is not None
+    np.testing.assert_array_equal(eye.faces, box.faces)
+
+
 def test_a_piece_is_inside_where_four_fifths_of_its_vertices_are() -> None:
     body, ball = blob(900), scaled(blob(400), 0.3)
     for place in np.linspace(0.4, 1.2, 9):
@@ -171,7 +183,7 @@ def test_a_hollow_body_is_matched_as_the_body() -> None:
     body, other = blob(900), blob(900, twist=0.4)
     clean = match(body, other, SMALL, landmarks=MARKS)
     hollow = joined(body, scaled(body, 0.85, inward=True))
-    with pytest.warns(KfmapsWarning, match="surfaces inside it are left out"):
+    with pytest.warns(KfmapsWarning, match="surfaces inside or around it are left out"):
         found = match(hollow, other, SMALL, landmarks=MARKS)
     assert geodesic_errors(body, found.target_to_source, clean.target_to_source).mean() < 1e-3
     assert found.precise().faces.max() < len(body.faces)
@@ -189,7 +201,7 @@ def test_holes_beside_inner_walls_are_filled() -> None:
     body = blob(900)
     rows = np.random.default_rng(0).random(len(body.faces)) > 0.1
     mesh = joined(Mesh(body.vertices, body.faces[rows]), scaled(body, 0.85, inward=True))
-    with pytest.warns(KfmapsWarning, match="surfaces inside it are left out, small holes are filled"):
+    with pytest.warns(KfmapsWarning, match="surfaces inside or around it are left out, small holes are filled"):
         shape = prepare(mesh, SMALL)
     assert shape.extent == pytest.approx(np.sqrt(surface_area(body)), rel=0.01)
     assert topology(shape.cleaned[0].mesh).is_closed

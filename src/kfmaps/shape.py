@@ -38,7 +38,7 @@ MIN_SEARCH_VERTICES = 1_000
 Repair = tuple[Callable[[Mesh], Mesh | None], str]
 REPAIRS: tuple[Repair, ...] = (
     (without_floor, "the floor is left out"),
-    (without_inner_walls, "surfaces inside it are left out"),
+    (without_inner_walls, "surfaces inside or around it are left out"),
     (without_partitions, "partitions of its inside are left out"),
     (outer_surface, "pieces that overlap count as the surface around them"),
     (fill_holes, "small holes are filled"),

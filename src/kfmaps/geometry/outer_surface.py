@@ -31,6 +31,8 @@ _MIN_PARTITION, _MAX_SEEN = 0.005, 0.05
 _N_FACES, _N_RAYS, _MIN_COSINE, _OFFSET = 50, 48, 0.1, 1e-4
 """Most faces of a patch that rays start from, rays from each, their least cosine with the normal, either way, and the
 distance from the face, in √area, where they start."""
+_MIN_VERTICES = 100
+"""Vertices of a shape that can be matched; what has fewer is a box around those inside."""
 _DEPTH = 0.007
 """Height above the surface, in √area, where a vertex is asked whether it is inside: about half an edge."""
 
@@ -38,7 +40,7 @@ _DEPTH = 0.007
 def without_inner_walls(mesh: Mesh) -> Mesh | None:
     """Return a mesh without the components inside one of its widest, such as cavities; ``None`` where there are none.
 
-    ``mesh``: cleaned.
+    Of a box around a shape the shape is left. ``mesh``: cleaned.
     """
     label, areas = component_areas(mesh)
     pieces = np.flatnonzero(areas)  # a vertex that no face uses is a component, too
@@ -53,7 +55,9 @@ def without_inner_walls(mesh: Mesh) -> Mesh | None:
         others, faces = np.flatnonzero(label != outer), mesh.faces[component == outer]
         number = np.asarray(igl.fast_winding_number(mesh.vertices, faces, mesh.vertices[others]))
         is_inside = np.abs(number) > 0.5  # negative in components that face inward among others
-        is_inner |= np.bincount(label[others], is_inside, len(areas)) >= _MIN_INSIDE * sizes
+        inner = (areas > 0) & (np.bincount(label[others], is_inside, len(areas)) >= _MIN_INSIDE * sizes)
+        is_box = sizes[outer] < _MIN_VERTICES <= sizes[inner].sum()
+        is_inner[outer if is_box else inner] = True
     if not is_inner[pieces].any() or is_inner[pieces].all():  # open surfaces may seem to be inside each other
         return None
     return Mesh(mesh.vertices, mesh.faces[~is_inner[component]])
