@@ -17,6 +17,7 @@ from kfmaps.datasets import sphere
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.connectivity import boundary_edges
+from kfmaps.geometry.face_orientation import inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.geometry.outer_surface import (
     _is_in_touching_pieces,
@@ -161,7 +162,8 @@ def test_walls_and_balls_inside_are_left_out(inward, is_first) -> None:
 
 def test_of_a_box_around_a_shape_the_shape_is_left() -> None:
     corners = np.array(list(product((-3.0, 3.0), repeat=3)))
-    box, body = Mesh(corners, ConvexHull(corners).simplices.astype(np.int64)), blob(900)
+    faces = ConvexHull(corners).simplices.astype(np.int64)
+    box, body = Mesh(corners, turn_faces(faces, inward_faces(Mesh(corners, faces)))), blob(900)
     rest = without_inner_walls(unit_area(joined(box, body)))
     assert rest is not None
     np.testing.assert_array_equal(rest.faces, body.faces + 8)
