@@ -1,9 +1,10 @@
 """Meshes damaged as scans and exports are, matched with clean ones: errors and verdicts.
 
     python benchmarks/damaged.py --data DIR [--sets FAUST_r,TOSCA_r] [--half report] [--pairs 2] [--damage floor,spikes]
-        [--partial auto]
+        [--partial auto] [--random 2]
 
-Each target is damaged in one way at a time; "clean" is the map without damage. Errors are mean geodesic distances on
+Each target is damaged in one way at a time; "clean" is the map without damage. With ``--random 2`` both shapes are
+damaged in two random ways, one after the other. Errors are mean geodesic distances on
 the source × 100, of the vertices with a truth, each at the damaged mesh's nearest vertex. DIR is as for
 benchmarks/automatic.py.
 """
@@ -249,60 +250,88 @@ DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "1000 vertices": _decimated(1000),
     "500 vertices": _decimated(500),
     "long triangles": _decimated(3000, 0.1),
-    "soup": _soup(0.0),
-    "rounded soup": _soup(1e-5),
-    "six pieces": _six_pieces(gap=1e-3),
-    "overlapping": _six_pieces(overlap=0.1, moved=2e-3),
-    "stuck together": _six_pieces(overlap=0.02, depth=0.08),
-    "half refined": _half_refined,
-    "inside out": _turned_over(1.0),
-    "tenth turned": _turned_over(0.1),
-    "two-sided": _two_sided,
     "spikes": _spikes,
     "10 holes": _holes(10, 0.005),
     "40 small holes": _holes(40, 0.001),
     "faces missing": _missing_faces(0.1),
     "more missing": _missing_faces(0.3),
-    "bad edges": _bad_edges,
-    "specks": _specks,
-    "balls inside": _balls_inside,
     "hollow": _hollow,
+    "balls inside": _balls_inside,
     "partitions": _partitions,
+    "half refined": _half_refined,
+    "bad edges": _bad_edges,
+    "six pieces": _six_pieces(gap=1e-3),
+    "overlapping": _six_pieces(overlap=0.1, moved=2e-3),
+    "stuck together": _six_pieces(overlap=0.02, depth=0.08),
+    "specks": _specks,
     "floor": _floor,
+    "rounded soup": _soup(1e-5),
+    "soup": _soup(0.0),
+    "inside out": _turned_over(1.0),
+    "tenth turned": _turned_over(0.1),
+    "two-sided": _two_sided,
     "far away": _far_away,
 }
+"""In the order in which several are done to one mesh."""
+UNLIKELY = {"clean", "noise 1 %", "500 vertices", "long triangles", "half refined", "more missing"}
+"""What random damage does not have."""
+
+
+def damaged(mesh: Mesh, names: list[str], rng: np.random.Generator) -> Damaged:
+    before = mesh.vertices
+    for name in names:
+        made, place = DAMAGES[name](mesh, rng)
+        is_of_shape = np.isfinite(place[:, 0])
+        nearest = np.asarray(KDTree(mesh.vertices).query(np.where(is_of_shape[:, None], place, 0.0))[1])
+        before = np.where(is_of_shape[:, None], before[nearest], np.nan)
+        mesh = made
+    return mesh, before
+
+
+def row_of(meshes: tuple[Mesh, Mesh], true: tuple[np.ndarray, np.ndarray], ways: list[list[str]], part: str) -> str:
+    """Return the error, verdict, seconds and warnings of a pair of shapes damaged in two ``ways``."""
+    rng = np.random.default_rng(0)
+    (target, was_target), (source, was_source) = (damaged(meshes[i], ways[i], rng) for i in (1, 0))
+    of_shape = np.flatnonzero(np.isfinite(was_target[:, 0]))
+    places = of_shape[np.asarray(KDTree(was_target[of_shape]).query(meshes[1].vertices[true[1]])[1])]
+    config = kfmaps.Config(threads=1)
+    begun = time.process_time()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = kfmaps.match(source, target, replace(config, partial=replace(config.partial, part=part)))
+    seconds = time.process_time() - begun
+    images = found.target_to_source[places]
+    was = np.where(np.isfinite(was_source), was_source, source.vertices)[images]
+    kept = images >= 0
+    points = np.asarray(KDTree(meshes[0].vertices).query(was[kept])[1])
+    error = 100 * float(kfmaps.geodesic_errors(meshes[0], points, true[0][kept]).mean())
+    missing = "" if kept.all() else f"{100 * np.mean(~kept):.0f} % without a counterpart; "
+    return (
+        f"{len(target.vertices):9,}{error:7.2f}  {found.verdict:11}{found.confidence or 0.0:6.2f}{seconds:7.1f}  "
+        f"{missing}" + "; ".join(str(one.message)[:60] for one in told)
+    )
 
 
 def main() -> None:
     parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,SMAL_r", 1, "report")
     parser.add_argument("--damage", default=",".join(DAMAGES))
     parser.add_argument("--partial", default="auto", help="which shape is stated to be a part")
+    parser.add_argument("--random", type=int, help="so many kinds of damage at random, to both shapes")
+    parser.add_argument("--seed", type=int, default=1, help="of the pairs and of random damage")
     arguments = parser.parse_args()
-    config = kfmaps.Config(threads=1)
-    config = replace(config, partial=replace(config.partial, part=arguments.partial))
     print(f"{'pair':34}{'damage':16}{'vertices':>9}{'error':>7}  {'verdict':11}{'told':>6}{'CPU s':>7}  warnings")
-    for job in chosen_jobs(arguments, seed=1):
-        source, target, true_s, true_t = loaded(job)
-        source, target = unit_area(source), unit_area(target)
-        for name in arguments.damage.split(","):
-            damaged, before = DAMAGES[name](target, np.random.default_rng(0))
-            of_shape = np.flatnonzero(np.isfinite(before[:, 0]))
-            places = of_shape[np.asarray(KDTree(before[of_shape]).query(target.vertices[true_t])[1])]
-            begun = time.process_time()
-            with warnings.catch_warnings(record=True) as told:
-                warnings.simplefilter("always")
-                found = kfmaps.match(source, damaged, config)
-            seconds = time.process_time() - begun
-            images = found.target_to_source[places]
-            kept = images >= 0
-            error = 100 * float(kfmaps.geodesic_errors(source, images[kept], true_s[kept]).mean())
-            missing = "" if kept.all() else f"{100 * np.mean(~kept):.0f} % without a counterpart; "
-            print(
-                f"{job!s:34}{name:16}{len(damaged.vertices):9,}{error:7.2f}  "
-                f"{found.verdict:11}{found.confidence or 0.0:6.2f}{seconds:7.1f}  {missing}"
-                + "; ".join(str(one.message)[:60] for one in told),
-                flush=True,
-            )
+    rng = np.random.default_rng(arguments.seed)
+    for job in chosen_jobs(arguments, seed=arguments.seed):
+        source, target, *true = loaded(job)
+        ways: list[list[list[str]]] = [[[], [name]] for name in arguments.damage.split(",")]
+        if arguments.random:
+            names = [name for name in DAMAGES if name not in UNLIKELY]
+            drawn = [np.sort(rng.choice(len(names), arguments.random, replace=False)) for _ in range(2)]
+            ways = [[[names[i] for i in numbers] for numbers in drawn]]
+        for way in ways:
+            name = " | ".join(", ".join(names) for names in way if names)
+            row = row_of((unit_area(source), unit_area(target)), (true[0], true[1]), way, arguments.partial)
+            print(f"{job!s:34}{name:16}{row}", flush=True)
 
 
 if __name__ == "__main__":
