@@ -29,6 +29,8 @@ MUTANTS = tuple(
         ("(rank[vertex] < rank[end])", "(rank[vertex] > rank[end])", "test_cleaning"),
         ("_MAX_GAP * mean_length[vertex])", "_MAX_GAP / mean_length[vertex])", "test_cleaning"),
         ("edges[is_reached[edges].all(axis=1)]", "edges[is_reached[edges].any(axis=1)]", "test_cleaning"),
+        ("(cosine < _MAX_COSINE)", "(cosine < 2)", "test_cleaning -k same_side"),
+        ("vertices[edges].sum(axis=1) - start", "vertices[edges].sum(axis=1) + start", "test_cleaning -k same_side"),
         ("max(axis=0) >= _MIN_SEAM)", "max(axis=0) >= 0)", "test_cleaning"),
         (
             "mesh.vertices + _DEPTH * vertex_normals(mesh)",

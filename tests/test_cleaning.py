@@ -234,6 +234,22 @@ def test_pieces_whose_borders_cross_stay_apart(seed) -> None:
     assert topology(joined(*pieces)).components == 3
 
 
+@pytest.mark.parametrize(
+    ("turn", "height", "components"), [(180, 0.15, 1), (80, 0.15, 1), (60, 0.15, 2), (60, 0.01, 1)]
+)
+def test_sheets_on_the_same_side_of_their_borders_stay_apart_unless_these_coincide(turn, height, components) -> None:
+    """Two strips whose long sides are near each other, with an angle of ``turn`` between them."""
+    x, y = np.meshgrid(np.arange(40.0), np.arange(5.0))
+    corner = np.arange(160).reshape(4, 40)[:, :-1].ravel()
+    faces = np.concatenate(
+        [np.stack([corner, corner + 1, corner + 40], 1), np.stack([corner + 1, corner + 41, corner + 40], 1)]
+    )
+    angle = np.radians(turn)
+    flat = np.stack([x, y, 0 * y], axis=2).reshape(-1, 3)
+    turned = np.stack([x + 0.3 * (height > 0.1), y * np.cos(angle), y * np.sin(angle) + height], axis=2).reshape(-1, 3)
+    assert topology(joined(Mesh(flat, faces), Mesh(turned, faces))).components == components
+
+
 def test_vertices_of_the_coarser_piece_stay_as_they_are() -> None:
     side = 2 * np.sin(np.pi / 100)
     below = tube(100, 0, 0, side, jitter=2.0)

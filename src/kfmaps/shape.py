@@ -35,8 +35,8 @@ MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
 MIN_SEARCH_VERTICES = 1_000
 """Number of vertices below which the faces of a surface are divided for a search."""
-Repair = tuple[Callable[[Mesh], Mesh | None], str]
-REPAIRS: tuple[Repair, ...] = (
+_Repairs = tuple[tuple[Callable[[Mesh], Mesh | None], str], ...]
+_REPAIRS: _Repairs = (
     (without_floor, "the floor is left out"),
     (without_inner_walls, "surfaces inside or around it are left out"),
     (without_partitions, "partitions of its inside are left out"),
@@ -312,7 +312,7 @@ def _scale_alike(mesh: Mesh, cleaned: CleanedMesh, unit: Mesh) -> Mesh:
     return Mesh(vertices, mesh.faces)
 
 
-def _repaired(mesh: Mesh, repairs: tuple[Repair, ...] = REPAIRS) -> tuple[Mesh, list[str]]:
+def _repaired(mesh: Mesh, repairs: _Repairs = _REPAIRS) -> tuple[Mesh, list[str]]:
     """Return the surface that is matched instead of a cleaned ``mesh`` of unit area, and what was done to it.
 
     Each of ``repairs`` that is possible is made once; what it changes may make an earlier one possible.

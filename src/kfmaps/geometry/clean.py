@@ -111,6 +111,8 @@ def flatten_spikes(mesh: Mesh) -> tuple[Mesh, int]:
     """
     n, v = len(mesh.vertices), mesh.vertices
     edges, n_faces = mesh_edges(mesh.faces, n)
+    if len(edges) == 0:
+        return mesh, 0
     a, b = np.concatenate([edges, edges[:, ::-1]]).T
     degree = np.bincount(a, minlength=n).clip(1)
     mean = np.stack([np.bincount(a, x[b], n) for x in v.T], axis=1) / degree[:, None]

@@ -18,14 +18,15 @@ from kfmaps.geometry.connectivity import (
     proper_faces,
     unique_vertices,
 )
-from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_rows
 
 _MAX_ROUNDING = 0.1
 """Distance up to which two open edges coincide, over the length of the shortest one at their ends."""
 _MAX_GAP, _MAX_GAP_OF_BODY = 0.5, 0.01
 """Widest gap between two pieces that counts as a seam, over the length of an open edge there, and over √area."""
-_MIN_SEAM = 0.4
-"""Least share of the open ends of one of two pieces that lie along seams. Borders of pieces that overlap only cross."""
+_MIN_SEAM, _MAX_COSINE = 0.4, 0.3
+"""Least share of the open ends of one of two pieces that lie along seams, and greatest cosine between the directions in
+which the surfaces go on from a gap. Borders of pieces that overlap only cross, or both go on to the same side."""
 
 
 def weld_vertices(mesh: Mesh) -> np.ndarray:
@@ -123,8 +124,12 @@ def _weld_along(mesh: Mesh, edges: np.ndarray, corners: np.ndarray, piece: np.nd
     part = np.einsum("ij,ij->i", vertices[vertex] - start, along) / np.maximum(length[edge] ** 2, 1e-300)
     distance = np.linalg.norm(start + part.clip(0, 1)[:, None] * along - vertices[vertex], axis=1)
     end = edges[edge, (part > 0.5).astype(np.int64)]
+    inward, inward_of = _directions_inward(vertices, edges, corners), np.zeros((n, 3))
+    np.add.at(inward_of, edges, inward[:, None])
+    cosine = np.einsum("ij,ij->i", inward[edge], unit_rows(inward_of)[vertex])
     gap = np.minimum(widest[edge], _MAX_GAP * mean_length[vertex])
-    gap = np.where(piece_of[vertex] != piece[edge], gap, _MAX_ROUNDING * shortest[vertex])
+    may_gape = (piece_of[vertex] != piece[edge]) & (cosine < _MAX_COSINE)
+    gap = np.where(may_gape, gap, _MAX_ROUNDING * shortest[vertex])
     is_along = (distance <= gap) & (rank[vertex] < rank[end])
     is_along &= (corners[edge] != vertex[:, None]).all(axis=1)  # the corners of its own face may be as close
     vertex, end, distance = vertex[is_along], end[is_along], distance[is_along]
@@ -141,6 +146,13 @@ def _weld_along(mesh: Mesh, edges: np.ndarray, corners: np.ndarray, piece: np.nd
     while (onto[onto] != onto).any():
         onto = onto[onto]
     return onto
+
+
+def _directions_inward(vertices: np.ndarray, edges: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return unit vectors from ``edges (b, 2)``, perpendicular to them, into their faces with ``corners (b, 3)``."""
+    start, along = vertices[edges[:, 0]], unit_rows(vertices[edges[:, 1]] - vertices[edges[:, 0]])
+    into = vertices[corners].sum(axis=1) - vertices[edges].sum(axis=1) - start
+    return unit_rows(into - np.einsum("ij,ij->i", into, along)[:, None] * along)
 
 
 def _pairs_within(centres: np.ndarray, radii: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
