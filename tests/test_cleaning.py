@@ -247,7 +247,8 @@ def test_sheets_on_the_same_side_of_their_borders_stay_apart_unless_these_coinci
     angle = np.radians(turn)
     flat = np.stack([x, y, 0 * y], axis=2).reshape(-1, 3)
     turned = np.stack([x + 0.3 * (height > 0.1), y * np.cos(angle), y * np.sin(angle) + height], axis=2).reshape(-1, 3)
-    assert topology(joined(Mesh(flat, faces), Mesh(turned, faces))).components == components
+    sheets = joined(Mesh(flat, faces), Mesh(turned, faces))
+    assert topology(Mesh(sheets.vertices + np.array([0, 9, -5]), sheets.faces)).components == components
 
 
 def test_vertices_of_the_coarser_piece_stay_as_they_are() -> None:
