@@ -3,8 +3,8 @@
     python benchmarks/damaged.py --data DIR [--sets FAUST_r,TOSCA_r] [--half report] [--pairs 2] [--damage floor,spikes]
         [--partial auto] [--random 2]
 
-Each target is damaged in one way at a time; "clean" is the map without damage. With ``--random 2`` both shapes are
-damaged in two random ways, one after the other. Errors are mean geodesic distances on
+Each target is damaged in one way at a time, or in several as "10 holes+floor"; "clean" is without damage. With
+``--random 2`` both shapes are damaged in two random ways, one after the other. Errors are mean geodesic distances on
 the source × 100, of the vertices with a truth, each at the damaged mesh's nearest vertex. DIR is as for
 benchmarks/automatic.py.
 """
@@ -323,7 +323,7 @@ def main() -> None:
     rng = np.random.default_rng(arguments.seed)
     for job in chosen_jobs(arguments, seed=arguments.seed):
         source, target, *true = loaded(job)
-        ways: list[list[list[str]]] = [[[], [name]] for name in arguments.damage.split(",")]
+        ways: list[list[list[str]]] = [[[], name.split("+")] for name in arguments.damage.split(",")]
         if arguments.random:
             names = [name for name in DAMAGES if name not in UNLIKELY]
             drawn = [np.sort(rng.choice(len(names), arguments.random, replace=False)) for _ in range(2)]
