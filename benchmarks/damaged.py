@@ -246,6 +246,7 @@ def _far_away(mesh: Mesh, rng: np.random.Generator) -> Damaged:
 DAMAGES: dict[str, Callable[[Mesh, np.random.Generator], Damaged]] = {
     "clean": lambda mesh, _rng: (mesh, mesh.vertices),
     "noise 0.3 %": _noisy(0.003),
+    "noise 0.5 %": _noisy(0.005),
     "noise 1 %": _noisy(0.01),
     "1000 vertices": _decimated(1000),
     "500 vertices": _decimated(500),
@@ -313,7 +314,7 @@ def row_of(meshes: tuple[Mesh, Mesh], true: tuple[np.ndarray, np.ndarray], ways:
 
 
 def main() -> None:
-    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,SMAL_r", 1, "report")
+    parser = pair_options(__doc__, "FAUST_r,SHREC19_r,TOSCA_r,SMAL_r", 1, "report", only=True)
     parser.add_argument("--damage", default=",".join(DAMAGES))
     parser.add_argument("--partial", default="auto", help="which shape is stated to be a part")
     parser.add_argument("--random", type=int, help="so many kinds of damage at random, to both shapes")

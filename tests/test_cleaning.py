@@ -10,14 +10,14 @@ import pytest
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import ConvexHull
 
-from conftest import NO_FACES, blob, joined, small_fit
+from conftest import NO_FACES, blob, fibonacci_sphere, joined, small_fit
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.descriptors.shot import shot
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.clean import _MAX_SPECK_AREA, _body_faces, clean_mesh, flatten_spikes
+from kfmaps.geometry.clean import _MAX_SPECK_AREA, _body_faces, clean_mesh, flatten_spikes, smooth_noise
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
@@ -483,15 +483,35 @@ def test_faces_that_name_a_vertex_twice_change_nothing() -> None:
         assert np.array_equal(source.faces[found.precise().faces], clean.faces[plain.precise().faces])
 
 
-def test_much_noise_is_smoothed_and_a_clean_mesh_stays(rng: np.random.Generator) -> None:
-    clean = unit_area(blob(3000))
-    # A third of the length of an edge: noise of 1 % of √area at 5,000 vertices is two thirds.
-    noisy = Mesh(clean.vertices + 0.01 * rng.normal(size=clean.vertices.shape), clean.faces)
-    with pytest.warns(KfmapsWarning, match="projected to a smooth surface"):
+def test_noise_is_smoothed_and_a_clean_mesh_stays(rng: np.random.Generator) -> None:
+    clean = unit_area(blob(2000))
+    noisy = Mesh(clean.vertices + 0.008 * rng.normal(size=clean.vertices.shape), clean.faces)
+    with pytest.warns(KfmapsWarning, match="the noise of its vertices is smoothed"):
         found = prepare(noisy, SMALL)
-    np.testing.assert_allclose(prepare(clean, SMALL).mesh.vertices, clean.vertices, atol=1e-12)
-    coarse, smooth = (
-        np.linalg.norm(m.vertices - clean.vertices, axis=1).mean() for m in (unit_area(noisy), found.mesh)
-    )
-    assert smooth < 0.7 * coarse
-    assert 1.0 < (found.extent or 0) < 0.9 * np.sqrt(surface_area(noisy))
+    np.testing.assert_array_equal(found.mesh.faces, clean.faces)
+    before, after = (np.linalg.norm(m.vertices - clean.vertices, axis=1).mean() for m in (unit_area(noisy), found.mesh))
+    assert after < 0.6 * before
+    assert found.extent == pytest.approx(1.0, abs=0.05)
+    assert (found.extent or 0) < 0.97 * np.sqrt(surface_area(noisy))
+    assert smooth_noise(clean) is None
+    assert smooth_noise(Mesh(noisy.vertices, NO_FACES)) is None
+    with warnings.catch_warnings(action="error"):
+        prepare(clean, SMALL)
+        prepare(unit_area(Mesh(blob(900).vertices + 0.05 * rng.normal(size=(900, 3)), blob(900).faces)), SMALL)
+
+
+@pytest.mark.parametrize(("count", "left"), [(2000, 0.55), (8000, 0.37)])
+def test_smoothing_keeps_what_is_longer_than_noise(count, left, rng: np.random.Generator) -> None:
+    """More is left of the noise of coarse meshes, whose features are as short."""
+    ball, spacing = fibonacci_sphere(count), np.sqrt(4 * np.pi / count)
+    noise = 0.4 * spacing * rng.normal(size=ball.vertices.shape)
+    smooth = smooth_noise(Mesh(ball.vertices + noise, ball.faces))
+    assert smooth is not None
+    radii = np.linalg.norm(smooth.vertices, axis=1)
+    assert radii.mean() == pytest.approx(1, abs=0.02)
+    assert radii.std() < left * 0.4 * spacing
+    wave = np.cos(6 * np.arccos(ball.vertices[:, 2]))
+    waved = smooth_noise(Mesh(ball.vertices * (1 + 0.1 * wave[:, None]) + noise, ball.faces))
+    assert waved is not None
+    height = np.linalg.norm(waved.vertices, axis=1) - 1
+    assert height @ wave / (wave @ wave) == pytest.approx(0.1, rel=0.15)

@@ -20,8 +20,8 @@ from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
-from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward, flatten_spikes
-from kfmaps.geometry.cloud_surface import project_noise, roughness, surface_of_cloud
+from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward, flatten_spikes, smooth_noise
+from kfmaps.geometry.cloud_surface import surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.holes import fill_holes
@@ -181,12 +181,12 @@ def prepare(
 ) -> Shape:
     """Compute what depends on one shape alone, so that matches with many others share it.
 
-    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out, and
-    spikes flattened (:mod:`kfmaps.geometry.clean`). A floor (:mod:`kfmaps.geometry.floor`), surfaces inside another and
-    partitions are left out, too. Pieces that overlap become one (:mod:`kfmaps.geometry.outer_surface`), small holes are
-    filled (:mod:`kfmaps.geometry.holes`), and much noise is smoothed
-    (:func:`kfmaps.geometry.cloud_surface.project_noise`). A warning says so. ``mesh``: in any unit; without faces it is
-    a point cloud. ``config``: its basis, descriptor and refinement settings count.
+    Seams are connected and inward faces turned. Second sides of faces, specks and unused vertices are left out, spikes
+    flattened, and noise is smoothed (:mod:`kfmaps.geometry.clean`). A floor (:mod:`kfmaps.geometry.floor`), surfaces
+    inside another and partitions are left out, too. Pieces that overlap become one
+    (:mod:`kfmaps.geometry.outer_surface`), and small holes are filled (:mod:`kfmaps.geometry.holes`). A warning says
+    so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and refinement
+    settings count.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
@@ -195,12 +195,9 @@ def prepare(
     is_cloud, given_faces = len(mesh.faces) == 0, None
     flat, n_spikes = flatten_spikes(cleaned.mesh)
     cleaned = replace(cleaned, mesh=flat)
-    max_roughness = 0.24  # above which a mesh is smoothed; 5,000 vertices with noise of 0.006 √area have as much
     # Edges of coarse meshes are as sharp as noise.
-    noisy = not is_cloud and len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES
-    noisy = noisy and roughness(cleaned.mesh.vertices, cleaned.mesh.faces) > max_roughness
-    if noisy:
-        cleaned = replace(cleaned, mesh=Mesh(project_noise(cleaned.mesh.vertices), cleaned.mesh.faces))
+    smooth = smooth_noise(cleaned.mesh) if len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES else None
+    cleaned = replace(cleaned, mesh=smooth or cleaned.mesh)
     unit = unit_area(cleaned.mesh)
     _check_size(unit, name, config)
     extent = None if is_cloud else float(np.sqrt(surface_area(cleaned.mesh)))
@@ -208,7 +205,7 @@ def prepare(
         surface, repairs = (surface_of_cloud(unit.vertices) if config.descriptors.shot else None), []
     else:
         surface, repairs = _repaired(unit)
-    _warn_of_cleaning(cleaned, name, n_spikes, noisy, repairs)
+    _warn_of_cleaning(cleaned, name, n_spikes, smooth is not None, repairs)
     if is_cloud and config.descriptors.shot and surface is None:
         text = (
             "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
@@ -340,7 +337,7 @@ def _warn_of_cleaning(cleaned: CleanedMesh, name: str, n_spikes: int, noisy: boo
     changes = [plural(*one) for one in found if one[0]]
     if cleaned.turned is not None:
         changes.append(f"{cleaned.turned.sum()} of {len(cleaned.turned)} faces are turned outward")
-    changes += ["noisy vertices are projected to a smooth surface"] * noisy
+    changes += ["the noise of its vertices is smoothed"] * noisy
     changes += repairs
     if changes:
         warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=3)

@@ -8,8 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.sparse import coo_array
 from scipy.spatial import KDTree
 
+from kfmaps.geometry.cloud_surface import roughness
 from kfmaps.geometry.connectivity import (
     half_edges_by_edge,
     manifold_patches,
@@ -28,6 +30,11 @@ _MAX_SPECK_AREA = 0.005
 _MIN_SPIKE, _MIN_SHARPNESS = 4.0, 1.5
 """Least height of a spike over the mean length of the edges, and over the mean distance of its neighbours from their
 mean."""
+
+_MAX_ROUGHNESS = 0.145
+"""Roughness (:func:`.cloud_surface.roughness`) above which a mesh is smoothed; clean bodies have at most 0.12."""
+_STEPS_PER_VERTEX, _MAX_STEPS = 1 / 500, 100
+"""Pairs of smoothing steps over the number of vertices, and the most of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +129,24 @@ def flatten_spikes(mesh: Mesh) -> tuple[Mesh, int]:
     is_spike = (height > _MIN_SPIKE * length.mean()) & (height > _MIN_SHARPNESS * width)
     is_spike[edges[n_faces == 1]] = False
     return (Mesh(np.where(is_spike[:, None], mean, v), mesh.faces) if is_spike.any() else mesh), int(is_spike.sum())
+
+
+def smooth_noise(mesh: Mesh) -> Mesh | None:
+    """Return a cleaned mesh without much of the noise of its vertices, or ``None`` where it has little.
+
+    Smoothing steps take turns with steps that undo the shrinking (Taubin, A signal processing approach to fair surface
+    design, 1995), more of them the more vertices there are, since all else is longer than edges there.
+    """
+    n = len(mesh.vertices)
+    if len(mesh.faces) == 0 or roughness(mesh.vertices, mesh.faces) <= _MAX_ROUGHNESS:
+        return None
+    edges = mesh_edges(mesh.faces, n)[0]
+    links = coo_array((np.ones(edges.size), (edges.ravel(), edges[:, ::-1].ravel())), shape=(n, n)).tocsr()
+    degree, positions = np.maximum(links.sum(axis=1), 1)[:, None], mesh.vertices
+    for _ in range(min(round(_STEPS_PER_VERTEX * n), _MAX_STEPS)):
+        for step in (0.5, -0.53):
+            positions = positions + step * (links @ positions / degree - positions)
+    return Mesh(positions, mesh.faces)
 
 
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
