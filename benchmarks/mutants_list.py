@@ -56,6 +56,8 @@ MUTANTS = tuple(
         ("height > _MIN_SPIKE * length.mean()", "height > 0", "test_cleaning -k spike"),
         ("height > _MIN_SHARPNESS * width", "height > 0", "test_cleaning -k spike"),
         ("is_spike[edges[n_faces == 1]] = False", "is_spike[edges[n_faces == 9]] = False", "test_cleaning -k spike"),
+        ("np.bincount(of_corner, touches[corners]) == 0", "True", "test_cleaning -k fin"),
+        ("(angle % (2 * np.pi)).argmin()", "(angle % (2 * np.pi)).argmax()", "test_holes -k touch"),
         ("for edges in (boundary, shared):", "for edges in (boundary,):", "test_cleaning -k fin"),
         ("alignment >= _MIN_ALIGNMENT", "alignment >= -_MIN_ALIGNMENT", "test_holes"),
         ("opening_area(filled) >= _MIN_SHARE * opening", "opening_area(filled) >= 0", "test_holes"),

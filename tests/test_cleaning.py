@@ -393,6 +393,10 @@ def test_a_patch_at_a_hole_or_without_an_open_edge_is_no_fin() -> None:
         np.vstack([mesh.faces, [[a, b, 300], [b, c, 300], [c, a, 300]]]),
     )
     assert clean_mesh(tent, specks=True).specks == 0
+    beside = np.unique(mesh.faces[np.isin(mesh.faces, [a, b]).any(axis=1)])
+    others = np.setdiff1d(np.arange(300), beside)
+    near = others[np.linalg.norm(mesh.vertices[others] - mesh.vertices[a], axis=1).argmin()]
+    assert _body_faces(Mesh(mesh.vertices, np.vstack([mesh.faces, [a, b, near]])))[1] == 0  # its tip is on the surface
     around = (np.isin(tent.faces, tent.faces[400])).sum(axis=1) == 2
     assert around.sum() == 3
     island = Mesh(tent.vertices, tent.faces[~around])  # the triangle hangs on by its corners

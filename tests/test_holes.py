@@ -94,6 +94,13 @@ def test_missing_faces_are_filled_with_faces_like_those_that_were_there(share) -
     assert (outward > 0).mean() > 0.999
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_holes_that_touch_in_vertices_are_filled_one_by_one(seed) -> None:
+    filled = fill_holes(unit_area(without_faces(unit_area(blob(2000)), 0.3, seed)))
+    assert filled is not None
+    assert topology(filled).boundary_edges <= 3
+
+
 def test_round_holes_are_filled_up_to_a_hundredth_of_the_area() -> None:
     ball = unit_area(sphere(3000))
     centres = 0.282 * np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]])

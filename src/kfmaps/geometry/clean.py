@@ -178,22 +178,31 @@ def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:
-    """Return which faces lie on no speck, (f,) bool, and the number of specks.
-
-    A patch that stands on an edge of two others and has an open edge is one, too.
-    """
+    """Return which faces lie on no speck, (f,) bool, and the number of specks, fins included."""
     label, areas = component_areas(mesh)
     component = label[mesh.faces[:, 0]]
     max_area = _MAX_SPECK_AREA * areas.max(initial=0.0)
     is_body = (areas >= max_area)[component]
-    count = len(np.unique(component[~is_body]))
-    boundary, pairs, edge_counts = half_edges_by_edge(mesh.faces, len(mesh.vertices))
-    if edge_counts.max(initial=0) > 2:
-        patch = manifold_patches(mesh.faces, len(mesh.vertices))
-        shared = np.delete(np.arange(mesh.faces.size), np.r_[boundary, pairs.ravel()])
-        is_fin = np.bincount(patch, face_areas(mesh)) < max_area
-        for edges in (boundary, shared):
-            is_fin &= np.bincount(patch[edges // 3], minlength=len(is_fin)) > 0
-        count += int(is_fin.sum())
-        is_body &= ~is_fin[patch]
-    return is_body, count
+    patch, is_fin = _fins(mesh, max_area)
+    return is_body & ~is_fin[patch], len(np.unique(component[~is_body])) + int(is_fin.sum())
+
+
+def _fins(mesh: Mesh, max_area: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the patch of each face, (f,), and which patches are fins up to ``max_area``, (p,) bool.
+
+    A fin has an open edge, stands on an edge of two other patches, and touches them nowhere else.
+    """
+    n, corners = len(mesh.vertices), mesh.faces.ravel()
+    boundary, pairs, edge_counts = half_edges_by_edge(mesh.faces, n)
+    if edge_counts.max(initial=0) <= 2:
+        return np.zeros(len(mesh.faces), dtype=np.int64), np.zeros(1, dtype=bool)
+    patch = manifold_patches(mesh.faces, n)
+    shared = np.delete(np.arange(len(corners)), np.r_[boundary, pairs.ravel()])
+    is_fin = np.bincount(patch, face_areas(mesh)) < max_area
+    for edges in (boundary, shared):
+        is_fin &= np.bincount(patch[edges // 3], minlength=len(is_fin)) > 0
+    of_corner, at, touches = np.repeat(patch, 3), np.zeros(n, dtype=np.int64), np.zeros(n, dtype=bool)
+    at[corners] = of_corner
+    touches[corners[at[corners] != of_corner]] = True
+    touches[corners[shared]] = touches[mesh.faces[:, [1, 2, 0]].ravel()[shared]] = False
+    return patch, is_fin & (np.bincount(of_corner, touches[corners]) == 0)

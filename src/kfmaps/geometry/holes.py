@@ -44,18 +44,18 @@ def fill_holes(mesh: Mesh) -> Mesh | None:
     normals, is_edge = vertex_normals(mesh), _edge_test(mesh)
     added = [
         _fill_loops(mesh.vertices, normals, loops[rows], is_edge)
-        for loops in _loops_by_size(mesh.vertices, edges)
+        for loops in _loops_by_size(mesh.vertices, normals, edges)
         for rows in blocks(len(loops), 1 + _BLOCK // loops.shape[1] ** 2)
     ]
     filled = Mesh(mesh.vertices, np.concatenate([mesh.faces, *added]))
     return filled if opening - opening_area(filled) >= _MIN_SHARE * opening else None
 
 
-def _loops_by_size(vertices: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
+def _loops_by_size(vertices: np.ndarray, normals: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
     """Return the loops of directed ``edges (b, 2)`` that pass no vertex twice, as arrays (l, k) of k vertices each.
 
-    Borders that are too long are left out. A trail along the edges leaves a loop behind whenever it comes back to a
-    vertex, so holes that touch in a vertex come apart.
+    Borders that are too long are left out. A trail along the edges keeps to one hole, which is to the left of each
+    edge, and leaves a loop behind whenever it comes back to a vertex, so holes that touch in a vertex come apart.
     """
     following: dict[int, list[int]] = {}
     for tail, head in edges.tolist():
@@ -64,7 +64,7 @@ def _loops_by_size(vertices: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
     for first in list(following):
         trail, place = [first], {first: 0}
         while following.get(trail[-1]):
-            vertex = following[trail[-1]].pop()
+            vertex = _leave(vertices, normals, trail, following[trail[-1]])
             if vertex not in place:
                 place[vertex] = len(trail)
                 trail.append(vertex)
@@ -81,6 +81,19 @@ def _loops_by_size(vertices: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
         perimeter = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).sum(axis=1)
         result.append(loops[perimeter <= _MAX_PERIMETER])
     return [loops for loops in result if len(loops)]
+
+
+def _leave(vertices: np.ndarray, normals: np.ndarray, trail: list[int], ends: list[int]) -> int:
+    """Remove and return that of the ``ends`` of edges from a trail's end whose edge has the same hole to the left.
+
+    It is the first one clockwise from where the trail came.
+    """
+    if len(ends) == 1 or len(trail) == 1:
+        return ends.pop()
+    at, back = vertices[trail[-1]], vertices[trail[-2]] - vertices[trail[-1]]
+    across, leaving = np.cross(back, normals[trail[-1]]), vertices[ends] - at
+    angle = np.arctan2(leaving @ across, leaving @ (back - (back @ normals[trail[-1]]) * normals[trail[-1]]))
+    return ends.pop(int((angle % (2 * np.pi)).argmin()))
 
 
 def _edge_test(mesh: Mesh) -> EdgeTest:
