@@ -135,7 +135,7 @@ def smooth_noise(mesh: Mesh) -> Mesh | None:
     """Return a cleaned mesh without much of the noise of its vertices, or ``None`` where it has little.
 
     Smoothing steps take turns with steps that undo the shrinking (Taubin, A signal processing approach to fair surface
-    design, 1995), more of them the more vertices there are, since all else is longer than edges there.
+    design, 1995), more of them the more vertices there are, since features are longer than the edges there.
     """
     n = len(mesh.vertices)
     if len(mesh.faces) == 0 or roughness(mesh.vertices, mesh.faces) <= _MAX_ROUGHNESS:
