@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.cloud_surface import roughness
@@ -120,11 +120,11 @@ def flatten_spikes(mesh: Mesh) -> tuple[Mesh, int]:
     edges, n_faces = mesh_edges(mesh.faces, n)
     if len(edges) == 0:
         return mesh, 0
-    a, b = np.concatenate([edges, edges[:, ::-1]]).T
-    degree = np.bincount(a, minlength=n).clip(1)
-    mean = np.stack([np.bincount(a, x[b], n) for x in v.T], axis=1) / degree[:, None]
+    links, degree = _links(edges, n)
+    mean = links @ v / degree
     height = np.linalg.norm(v - mean, axis=1)
-    width = np.bincount(a, np.linalg.norm(v[b] - mean[a], axis=1), n) / degree
+    a, b = np.concatenate([edges, edges[:, ::-1]]).T
+    width = np.bincount(a, np.linalg.norm(v[b] - mean[a], axis=1), n) / degree[:, 0]
     length = np.linalg.norm(v[edges[:, 0]] - v[edges[:, 1]], axis=1)
     is_spike = (height > _MIN_SPIKE * length.mean()) & (height > _MIN_SHARPNESS * width)
     is_spike[edges[n_faces == 1]] = False
@@ -140,13 +140,18 @@ def smooth_noise(mesh: Mesh) -> Mesh | None:
     n = len(mesh.vertices)
     if len(mesh.faces) == 0 or roughness(mesh.vertices, mesh.faces) <= _MAX_ROUGHNESS:
         return None
-    edges = mesh_edges(mesh.faces, n)[0]
-    links = coo_array((np.ones(edges.size), (edges.ravel(), edges[:, ::-1].ravel())), shape=(n, n)).tocsr()
-    degree, positions = np.maximum(links.sum(axis=1), 1)[:, None], mesh.vertices
+    links, degree = _links(mesh_edges(mesh.faces, n)[0], n)
+    positions = mesh.vertices
     for _ in range(min(round(_STEPS_PER_VERTEX * n), _MAX_STEPS)):
         for step in (0.5, -0.53):
             positions = positions + step * (links @ positions / degree - positions)
     return Mesh(positions, mesh.faces)
+
+
+def _links(edges: np.ndarray, n: int) -> tuple[csr_array, np.ndarray]:
+    """Return the adjacency matrix of ``n`` vertices with ``edges (e, 2)``, and how many neighbours each has, (n, 1)."""
+    links = coo_array((np.ones(edges.size), (edges.ravel(), edges[:, ::-1].ravel())), shape=(n, n)).tocsr()
+    return links, np.maximum(links.sum(axis=1), 1)[:, None]
 
 
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
@@ -196,7 +201,7 @@ def _fins(mesh: Mesh, max_area: float) -> tuple[np.ndarray, np.ndarray]:
     boundary, pairs, edge_counts = half_edges_by_edge(mesh.faces, n)
     if edge_counts.max(initial=0) <= 2:
         return np.zeros(len(mesh.faces), dtype=np.int64), np.zeros(1, dtype=bool)
-    patch = manifold_patches(mesh.faces, n)
+    patch = manifold_patches(len(mesh.faces), pairs)
     shared = np.delete(np.arange(len(corners)), np.r_[boundary, pairs.ravel()])
     is_fin = np.bincount(patch, face_areas(mesh)) < max_area
     for edges in (boundary, shared):

@@ -67,13 +67,12 @@ def half_edges_by_edge(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarra
     return order[start[counts == 1]], np.stack([order[two], order[two + 1]]), counts
 
 
-def manifold_patches(faces: np.ndarray, n: int) -> np.ndarray:
-    """Return for each of ``faces (f, 3)`` its patch, (f,): edges of two faces join the faces of one.
+def manifold_patches(count: int, pairs: np.ndarray) -> np.ndarray:
+    """Return for each of ``count`` faces its patch, (count,): edges of two faces join the faces of one.
 
-    ``n``: number of vertices.
+    ``pairs (2, p)``: of half-edges, by :func:`half_edges_by_edge`.
     """
-    one, two = half_edges_by_edge(faces, n)[1] // 3
-    return component_labels(len(faces), one, two)[1]
+    return component_labels(count, *pairs // 3)[1]
 
 
 def _edge_keys(faces: np.ndarray, n: int) -> np.ndarray:

@@ -11,7 +11,13 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.cloud_surface import surface_of_cloud
-from kfmaps.geometry.connectivity import component_labels, manifold_patches, mesh_edges, unique_vertices
+from kfmaps.geometry.connectivity import (
+    component_labels,
+    half_edges_by_edge,
+    manifold_patches,
+    mesh_edges,
+    unique_vertices,
+)
 from kfmaps.geometry.mesh import (
     Mesh,
     component_areas,
@@ -70,7 +76,7 @@ def without_partitions(mesh: Mesh) -> Mesh | None:
     from outside: rays from both of its sides hit the surface.
     """
     vertices, faces = mesh.vertices, mesh.faces
-    patch = manifold_patches(faces, len(vertices))
+    patch = manifold_patches(len(faces), half_edges_by_edge(faces, len(vertices))[1])
     areas = np.bincount(patch, face_areas(mesh))
     wide = np.flatnonzero(areas >= _MIN_PARTITION * areas.sum())
     if len(wide) < 2:
