@@ -24,7 +24,7 @@ from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, file_ratio, match_partial
-from kfmaps.matching.partial.place_part import GivenUp, PartTask, _same_units, place_part
+from kfmaps.matching.partial.place_part import GivenUp, PartTask, place_part, same_units
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
     Assignment,
@@ -231,7 +231,7 @@ def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, output):
     ],
 )
 def test_two_parts_of_like_size_are_in_one_unit(scale: str, ratio: float | None, both: bool, same: bool) -> None:
-    assert _same_units(scale, ratio, both) == same
+    assert same_units(scale, ratio, both) == same
 
 
 @pytest.mark.parametrize("which", ["source", "target"])
@@ -626,30 +626,35 @@ def test_two_open_shapes_that_match_as_wholes_without_deformation_are_not_taken_
     monkeypatch, small, energy, tries_parts
 ):
     """As of a fish in two poses whose fins are open sheets, where wrong parts have been more probable."""
-    part, whole = fake_match("sure", 0.95), fake_match("ambiguous", 0.6, energy=energy)
-    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, False))
+    part, whole = fake_match("likely", 0.7), fake_match("ambiguous", 0.6, energy=energy)
+    parts_tried(monkeypatch, dict.fromkeys(("source", "target", "both"), part))
     monkeypatch.setattr(match_module, "_match_wholes", lambda *_: whole)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "open", 0.3, True))
     assert match_module.match(small, small, AUTO) is (part if tries_parts else whole)
 
 
 @pytest.mark.parametrize(
-    ("word", "opening", "more_open", "expected"),
+    ("detected", "word", "opening", "ratio", "expected", "steps"),
     [
-        ("sure", 0.3, "source", "source"),
-        ("sure", 0.3, "target", "target"),
-        ("likely", 0.3, "target", "both"),
-        ("not clear", 0.3, "target", "both"),
-        ("sure", 0.2, "target", "both"),  # so little is missing that both are rather whole
+        ("both", "sure", 0.06, 1.2, "source", ["source"]),
+        ("both", "sure", 0.06, 0.9, "target", ["target"]),
+        ("both", "sure", 0.06, 3.0, "target", ["target"]),  # another unit, and the target is more open
+        ("both", "sure", 0.06, None, "target", ["target"]),
+        ("source", "sure", 0.06, 0.9, "target", ["target"]),
+        ("both", "likely", 0.06, 1.2, "both", ["source", "target", "both"]),
+        ("both", "not clear", 0.06, 1.2, "both", ["source", "target", "both"]),
+        ("both", "sure", 0.05, 1.2, "both", ["both"]),  # so little is missing that both are rather whole
     ],
 )
 def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
-    monkeypatch, small, word, opening, more_open, expected
+    monkeypatch, small, detected, word, opening, ratio, expected, steps
 ):
-    """As a piece of a body is of one with large holes."""
-    answers = {"both": fake_match("likely", 0.7), more_open: fake_match(word, 0.95)}
+    """As two heads are that were cut off at different heights."""
+    tried, answers = [], {which: fake_match(word, 0.95) for which in ("source", "target")}
+    answers["both"] = fake_match("likely", 0.7)
 
     def matched(_task, which, _why, _least=0.0, clear_area=np.inf):
+        tried.append(which)
         assert clear_area == (np.inf if which == "both" else 0.0)
         if word == "not clear" and which != "both":
             raise GivenUp
@@ -657,17 +662,30 @@ def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
 
     monkeypatch.setattr(match_module, "match_partial", matched)
     monkeypatch.setattr(match_module, "_match_wholes", lambda *_: fake_match("ambiguous", 0.6))
-    detected = PartDetection("both", "open", opening, True, more_open)
-    monkeypatch.setattr(match_module, "detect_part", lambda *_: detected)
+    monkeypatch.setattr(match_module, "file_ratio", lambda *_: ratio)
+    detection = PartDetection(detected, "open", opening, True, "target")
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: detection)
     assert match_module.match(small, small, AUTO) is answers[expected]
+    assert tried == steps
+
+
+@pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])
+def test_two_open_shapes_that_match_as_wholes_have_a_lower_probability(monkeypatch, small, opening, expected):
+    """What each has that the other lacks would be squeezed onto it, and scores may hardly tell."""
+    parts_tried(monkeypatch, dict.fromkeys(("source", "target", "both"), fake_match("likely", 0.7)))
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: WholeMatch())
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "open", opening, True))
+    found = match_module.match(small, small, AUTO)
+    assert (found.confidence, found.verdict) == (pytest.approx(expected[0]), expected[1])
 
 
 @pytest.mark.parametrize(
     ("both_open", "word", "expected", "steps"),
     [
-        (True, "ambiguous", "both", ["target", "source", "both"]),
+        (True, "ambiguous", "both", ["target", "source", "target", "source", "both"]),
         (False, "ambiguous", "target", ["target", "source"]),
         (True, "sure", "source", ["target", "source"]),
+        (False, "sure", "source", ["target", "source"]),
     ],
 )
 def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_are_open(
@@ -688,7 +706,7 @@ def test_two_parts_that_were_stated_are_not_matched_twice(monkeypatch, small):
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, True))
     stated = replace(AUTO, partial=replace(AUTO.partial, part="both"))
     assert match_module.match(small, small, stated) is answers["both"]
-    assert tried == ["both", "target", "source"]
+    assert tried == ["both", "target", "source", "target", "source"]
 
 
 @pytest.mark.parametrize(

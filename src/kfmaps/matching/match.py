@@ -39,7 +39,7 @@ from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_U
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import PartDetection, detect_part
 from kfmaps.matching.partial.match_partial import file_ratio, match_partial
-from kfmaps.matching.partial.place_part import GivenUp
+from kfmaps.matching.partial.place_part import GivenUp, same_units
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
@@ -103,19 +103,17 @@ def _match_detected(
 
     ``tried``: what has been stated and matched already: two parts are not matched again.
     """
-    which, has_search = detection.which, task.config.search is not None
-    if which in ("none", "both"):
-        best = wholes(MatchPart(reason=detection.reason))
-        if (
-            which == "none"
-            or best.verdict == "sure"
-            or not has_search
-            or _deforms_at_most(best, SCORE.part.max_deformation_of_two)
-        ):
-            return best
-        part = _match_clear_part(task, detection)
-        return part or _more_probable(best, _match_as(task, "both", detection.reason))
-    return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
+    part = _match_clear_part(task, detection)
+    if part is not None:
+        return part
+    which, as_wholes = detection.which, MatchPart(reason=detection.reason)
+    if which in ("source", "target"):
+        return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
+    best = _lower_open(wholes(as_wholes), detection)
+    is_settled = best.verdict == "sure" or _deforms_at_most(best, SCORE.part.max_deformation_of_two)
+    if which == "none" or is_settled or task.config.search is None:
+        return best
+    return _more_probable(best, _match_as(task, "both", detection.reason))
 
 
 def _lower_open(match: Match, detection: PartDetection) -> Match:
@@ -123,7 +121,7 @@ def _lower_open(match: Match, detection: PartDetection) -> Match:
 
     Nothing is known about what is missing.
     """
-    if match.partial.which != "none" or detection.which not in ("source", "target"):
+    if match.partial.which != "none" or detection.which == "none":
         return match
     confidence, verdict = lower_probability(match.confidence, match.verdict, min(detection.opening, 1.0))
     return replace(match, confidence=confidence, verdict=verdict)
@@ -153,14 +151,26 @@ def _match_open(
 
 
 def _match_clear_part(task: MatchTask, detection: PartDetection) -> Match | None:
-    """Return the match of the more open shape as a part of the other if it soon is "sure", as of a whole with holes."""
-    if detection.more_open is None or _may_be_whole(detection):
+    """Return the match of one of two open shapes as a part of the other if it soon is "sure".
+
+    As wholes two heads, say, that were cut at different places are squeezed onto each other, and scores may not tell.
+    The shape that is smaller in files of one unit is the part first, else the more open one.
+    """
+    is_cut = detection.both_open and detection.opening > SCORE.part.max_small_opening
+    if task.config.search is None or not is_cut:
         return None
-    try:
-        part, _ = _match_part(task, detection.more_open, detection.reason, clear_area=0.0)
-    except GivenUp:
-        return None
-    return part if part is not None and part.verdict == "sure" else None
+    ratio, first = file_ratio(*task.shapes("preserving")), detection.more_open
+    if ratio is not None and same_units("auto", ratio, both_partial=True):
+        first = "source" if ratio > 1 else "target"
+    for which in ("source", "target") if first == "source" else ("target", "source"):
+        try:
+            with task.clock("parts"):
+                part, _ = match_partial(task, which, detection.reason, clear_area=0.0)
+        except GivenUp:
+            continue
+        if part.verdict == "sure":
+            return part
+    return None
 
 
 def _match_stated(

@@ -81,7 +81,7 @@ class PartTask:
     whole: Mesh
     settings: Partial
     # √area of the part over that of the whole in their files; it is one of the scales that are tried, and the only one
-    # where units are the same (:func:`_same_units`).
+    # where units are the same (:func:`same_units`).
     ratio: float | None = None
     both_partial: bool = False  # whether the whole may lack something too
     rng: int = 0
@@ -116,7 +116,7 @@ def place_part(
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
     part, whole, settings, ratio, both_partial = task.part, task.whole, task.settings, task.ratio, task.both_partial
-    fixed = _same_units(settings.scale, ratio, both_partial)
+    fixed = same_units(settings.scale, ratio, both_partial)
     if fixed and ratio is None:
         raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
     proxies = [_placed_proxy(mesh, vertices) for mesh, vertices in ((part, pairs[:, 0]), (whole, pairs[:, 1]))]
@@ -143,7 +143,7 @@ def place_part(
     return PlacedPart(last, find_overlap(last, on), scores, margin(found, len(pairs)), unguided)
 
 
-def _same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
+def same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
     """Return whether both shapes are taken to be in one unit.
 
     Nothing bounds the scale of two parts, and the score prefers a wrong one: the pairs of
