@@ -669,6 +669,27 @@ def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
     assert tried == steps
 
 
+@pytest.mark.parametrize(
+    ("moved", "word", "expected"),
+    [(0.07, "sure", "whole"), (0.09, "sure", "part"), (0.07, "likely", "part")],
+)
+def test_open_shapes_that_cover_each_other_are_matched_as_wholes_if_the_maps_agree(
+    monkeypatch, small, moved, word, expected
+):
+    """A map as wholes has a functional map of the whole shapes, and goes into collections."""
+    part = fake_match("sure", 0.95)
+    part.source = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [moved, 0, 0]]), np.array([[0, 1, 2]]))
+    part.target_to_source = np.array([0, 0, -1])
+    whole = fake_match(word, 0.99)
+    whole.target_to_source = np.array([3, 3, 2])
+    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, True))
+    reasons = []
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *args: reasons.append(args[-1]) or whole)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "both open", 0.3, True, "target"))
+    assert match_module.match(small, small, AUTO) is {"whole": whole, "part": part}[expected]
+    assert reasons[0].reason == "taken for whole: both open, but each covers all of the other"
+
+
 @pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])
 def test_two_open_shapes_that_match_as_wholes_have_a_lower_probability(monkeypatch, small, opening, expected):
     """What each has that the other lacks would be squeezed onto it, and scores may hardly tell."""

@@ -32,7 +32,7 @@ from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import limit_threads
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.matching.finish import MatchTask, better_match, final_score, refine_and_register, torn_area_fraction
 from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
@@ -103,10 +103,11 @@ def _match_detected(
 
     ``tried``: what has been stated and matched already: two parts are not matched again.
     """
-    part = _match_clear_part(task, detection)
+    part, as_wholes = _match_clear_part(task, detection)
     if part is not None:
-        return part
-    which, as_wholes = detection.which, MatchPart(reason=detection.reason)
+        whole = wholes(as_wholes) if as_wholes.suspected else None
+        return whole if whole is not None and whole.verdict == "sure" and _agree(whole, part) else part
+    which = detection.which
     if which in ("source", "target"):
         return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
     best = _lower_open(wholes(as_wholes), detection)
@@ -150,27 +151,41 @@ def _match_open(
     return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
 
 
-def _match_clear_part(task: MatchTask, detection: PartDetection) -> Match | None:
+def _match_clear_part(task: MatchTask, detection: PartDetection) -> tuple[Match | None, MatchPart]:
     """Return the match of one of two open shapes as a part of the other if it soon is "sure".
 
     As wholes two heads, say, that were cut at different places are squeezed onto each other, and scores may not tell.
-    The shape that is smaller in files of one unit is the part first, else the more open one.
+    The shape that is smaller in files of one unit is the part first, else the more open one. Also return what a match
+    as wholes says about parts: it is called for (``suspected``) where each covers the other.
     """
+    none = MatchPart(reason=detection.reason)
     is_cut = detection.both_open and detection.opening > SCORE.part.max_small_opening
     if task.config.search is None or not is_cut:
-        return None
+        return None, none
     ratio, first = file_ratio(*task.shapes("preserving")), detection.more_open
     if ratio is not None and same_units("auto", ratio, both_partial=True):
         first = "source" if ratio > 1 else "target"
     for which in ("source", "target") if first == "source" else ("target", "source"):
         try:
             with task.clock("parts"):
-                part, _ = match_partial(task, which, detection.reason, clear_area=0.0)
+                part, covers = match_partial(task, which, detection.reason, clear_area=0.0)
         except GivenUp:
             continue
         if part.verdict == "sure":
-            return part
-    return None
+            return part, _covering(detection.reason) if covers else none
+    return None, none
+
+
+def _covering(reason: str) -> MatchPart:
+    """Return what a match as wholes says of shapes that were matched as a part and a whole, and cover each other."""
+    return MatchPart(reason=f"taken for whole: {reason}, but each covers all of the other", suspected=True)
+
+
+def _agree(whole: Match, part: Match) -> bool:
+    """Return whether a match as wholes and one of parts have nearly the same map where both have one."""
+    known, vertices = part.target_to_source >= 0, unit_area(part.source).vertices
+    moved = vertices[whole.target_to_source[known]] - vertices[part.target_to_source[known]]
+    return bool(np.linalg.norm(moved, axis=1).mean() < SCORE.distinct_distance)
 
 
 def _match_stated(
@@ -306,7 +321,7 @@ def _match_part(
     with task.clock("parts"):
         part, covers = match_partial(task, which, reason, least_scale, clear_area)
     if covers:
-        return None, MatchPart(reason=f"taken for whole: {reason}, but each covers all of the other", suspected=True)
+        return None, _covering(reason)
     return part, MatchPart(reason=_FIT_AS_WHOLES, suspected=True)
 
 
