@@ -643,6 +643,7 @@ def test_two_open_shapes_that_match_as_wholes_without_deformation_are_not_taken_
         ("source", "sure", 0.06, 0.9, "target", ["target"]),
         ("both", "likely", 0.06, 1.2, "both", ["source", "target", "both"]),
         ("both", "not clear", 0.06, 1.2, "both", ["source", "target", "both"]),
+        ("both", "not clear", 0.06, 0.9, "both", ["target", "source", "both"]),
         ("both", "sure", 0.05, 1.2, "both", ["both"]),  # so little is missing that both are rather whole
     ],
 )
