@@ -1208,9 +1208,10 @@ MUTANTS = tuple(
         ('first = "source" if ratio > 1', 'first = "source" if ratio < 1', "test_parts -k clear_part"),
         ("both_partial=True):\n        first", "both_partial=False):\n        first", "test_parts -k clear_part"),
         ('else ("target", "source"):', 'else ("target",):', "test_parts -k clear_part"),
-        ("_covering(detection.reason) if covers else none", "none", "test_parts -k cover_each_other"),
-        (".mean() < SCORE.distinct_distance)", ".mean() < 1.0)", "test_parts -k cover_each_other"),
-        ('whole.verdict == "sure" and _agree', "_agree", "test_parts -k cover_each_other"),
+        ("_covering(detection.reason) if covers else none", "none", "test_parts -k compared_with_the_match"),
+        (".mean() >= SCORE.distinct_distance or", ".mean() >= 1.0 or", "test_parts -k compared_with_the_match"),
+        ('whole.verdict not in ("sure", "ambiguous")', "False", "test_parts -k compared_with_the_match"),
+        ('return part if whole.verdict == "sure" else', "return", "test_parts -k compared_with_the_match"),
         (
             "best = _lower_open(wholes(as_wholes), detection)",
             "best = wholes(as_wholes)",

@@ -52,7 +52,7 @@ def region(body: Mesh, name: str, change: float, rng: np.random.Generator) -> tu
     away = matrix @ geodesic_distances(body, np.array([middle]))[0]
     fine = Mesh(matrix @ body.vertices, faces)
     piece, kept = largest_piece(fine, away < radius * np.exp(rng.uniform(-change, change)))
-    template = np.array([row.indices[row.data.argmax()] for row in (matrix[[i]] for i in kept)])
+    template = matrix[kept].toarray().argmax(axis=1)
     if len(piece.faces) <= MAX_FACES:
         return piece, template
     simple, faces = map(np.asarray, igl.decimate(piece.vertices, piece.faces, int(rng.integers(8000, MAX_FACES)))[:2])
@@ -74,7 +74,7 @@ def run(data: Path, half: str, name: str, change: float, number: int) -> dict[st
         ]
     true_s, true_t = (side.places[:, 0].astype(np.int64) for side in sides)
     begun = time.process_time()
-    found = kfmaps.match(*meshes, replace(kfmaps.Config(), threads=1))
+    found = kfmaps.match(meshes[0], meshes[1], replace(kfmaps.Config(), threads=1))
     seconds = time.process_time() - begun
     both = np.isin(true_t, true_s)
     given = both & (found.target_to_source >= 0)

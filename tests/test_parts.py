@@ -415,6 +415,20 @@ class WholeMatch:
     score: Any = field(default_factory=lambda: SimpleNamespace(deformation_energy=0.1))
 
 
+@dataclass
+class OpenMatch:
+    """A match of a triangle whose fourth vertex lies ``moved`` away from the first."""
+
+    verdict: str
+    confidence: float
+    target_to_source: np.ndarray
+    moved: float
+
+    @property
+    def source(self) -> Mesh:
+        return Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [self.moved, 0, 0]]), np.array([[0, 1, 2]]))
+
+
 @pytest.mark.parametrize("stated", ["auto", "none"])
 @pytest.mark.parametrize(
     ("which", "opening", "given", "expected"),
@@ -663,6 +677,7 @@ def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
 
     monkeypatch.setattr(match_module, "match_partial", matched)
     monkeypatch.setattr(match_module, "_match_wholes", lambda *_: fake_match("ambiguous", 0.6))
+    monkeypatch.setattr(match_module, "_check_by_wholes", lambda part, *_: part)
     monkeypatch.setattr(match_module, "file_ratio", lambda *_: ratio)
     detection = PartDetection(detected, "open", opening, True, "target")
     monkeypatch.setattr(match_module, "detect_part", lambda *_: detection)
@@ -671,24 +686,31 @@ def test_of_two_open_shapes_one_may_be_a_clear_part_of_the_other(
 
 
 @pytest.mark.parametrize(
-    ("moved", "word", "expected"),
-    [(0.07, "sure", "whole"), (0.09, "sure", "part"), (0.07, "likely", "part")],
+    ("moved", "word", "covers", "expected", "told"),
+    [
+        (0.07, "sure", True, "whole", "sure"),
+        (0.09, "sure", True, "part", "sure"),
+        (0.07, "likely", True, "part", "sure"),
+        (0.07, "sure", False, "part", "sure"),
+        (0.07, "ambiguous", True, "whole", "ambiguous"),
+        (0.07, "ambiguous", False, "part", "ambiguous"),  # two legs may be exchanged
+        (0.09, "ambiguous", False, "part", "sure"),
+    ],
 )
-def test_open_shapes_that_cover_each_other_are_matched_as_wholes_if_the_maps_agree(
-    monkeypatch, small, moved, word, expected
+def test_a_part_of_an_open_shape_is_compared_with_the_match_as_wholes(
+    monkeypatch, small, moved, word, covers, expected, told
 ):
-    """A map as wholes has a functional map of the whole shapes, and goes into collections."""
-    part = fake_match("sure", 0.95)
-    part.source = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 2, 0], [moved, 0, 0]]), np.array([[0, 1, 2]]))
-    part.target_to_source = np.array([0, 0, -1])
-    whole = fake_match(word, 0.99)
-    whole.target_to_source = np.array([3, 3, 2])
-    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, True))
+    """A map as wholes is compared with others that exchange limbs, and goes into collections."""
+    part = OpenMatch("sure", 0.95, np.array([0, 0, -1]), moved)
+    whole = OpenMatch(word, 0.6, np.array([3, 3, 2]), moved)
+    monkeypatch.setattr(match_module, "match_partial", lambda *_, **__: (part, covers))
     reasons = []
-    monkeypatch.setattr(match_module, "_match_wholes", lambda *args: reasons.append(args[-1]) or whole)
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *args: reasons.append(args[-1].reason) or whole)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "both open", 0.3, True, "target"))
-    assert match_module.match(small, small, AUTO) is {"whole": whole, "part": part}[expected]
-    assert reasons[0].reason == "taken for whole: both open, but each covers all of the other"
+    found = match_module.match(small, small, AUTO)
+    assert found.target_to_source is {"whole": whole, "part": part}[expected].target_to_source
+    assert (found.verdict, found.confidence) == (told, 0.95 if expected == "part" and told == "sure" else 0.6)
+    assert reasons == ["taken for whole: both open, but each covers all of the other" if covers else "both open"]
 
 
 @pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])
@@ -717,6 +739,8 @@ def test_a_part_of_a_shape_that_is_open_too_is_matched_as_one_of_two_where_both_
     confidence = 0.95 if word == "sure" else 0.3
     answers["source"] = fake_match(word, confidence)
     tried = parts_tried(monkeypatch, answers)
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: None)
+    monkeypatch.setattr(match_module, "_check_by_wholes", lambda part, *_: part)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("target", "open", 0.3, both_open))
     assert match_module.match(small, small, AUTO) is answers[expected]
     assert tried == steps

@@ -105,8 +105,7 @@ def _match_detected(
     """
     part, as_wholes = _match_clear_part(task, detection)
     if part is not None:
-        whole = wholes(as_wholes) if as_wholes.suspected else None
-        return whole if whole is not None and whole.verdict == "sure" and _agree(whole, part) else part
+        return _check_by_wholes(part, wholes(as_wholes), as_wholes.suspected)
     which = detection.which
     if which in ("source", "target"):
         return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
@@ -181,11 +180,19 @@ def _covering(reason: str) -> MatchPart:
     return MatchPart(reason=f"taken for whole: {reason}, but each covers all of the other", suspected=True)
 
 
-def _agree(whole: Match, part: Match) -> bool:
-    """Return whether a match as wholes and one of parts have nearly the same map where both have one."""
+def _check_by_wholes(part: Match, whole: Match, covers: bool) -> Match:
+    """Return the match of one of two open shapes as a part of the other, or that as wholes.
+
+    Only a match as wholes is compared with maps that exchange limbs. So where it has the same map, and is "ambiguous",
+    the part is no surer. It is the answer where each shape ``covers`` the other: it has what collections need.
+    """
     known, vertices = part.target_to_source >= 0, unit_area(part.source).vertices
     moved = vertices[whole.target_to_source[known]] - vertices[part.target_to_source[known]]
-    return bool(np.linalg.norm(moved, axis=1).mean() < SCORE.distinct_distance)
+    if np.linalg.norm(moved, axis=1).mean() >= SCORE.distinct_distance or whole.verdict not in ("sure", "ambiguous"):
+        return part
+    if covers:
+        return whole
+    return part if whole.verdict == "sure" else replace(part, confidence=whole.confidence, verdict=whole.verdict)
 
 
 def _match_stated(
