@@ -1213,8 +1213,8 @@ MUTANTS = tuple(
         ('whole.verdict not in ("sure", "ambiguous")', "False", "test_parts -k compared_with_the_match"),
         ('return part if whole.verdict == "sure" else', "return", "test_parts -k compared_with_the_match"),
         (
-            "best = _lower_open(wholes(as_wholes), detection)",
-            "best = wholes(as_wholes)",
+            "best = _lower_open(found, detection)\n    is_settled",
+            "best = found\n    is_settled",
             "test_parts -k lower_probability",
         ),
         ("alone = min(fits, numbers.max_fit)", "alone = fits", "test_parts -k likely_at_most"),
@@ -1275,7 +1275,8 @@ MUTANTS = tuple(
         ("return _may_be_whole(detection) and", "return", "test_parts -k unsure_part"),
         ("detection.opening <= SCORE.part.max_small_opening:", "False:", "test_parts -k unsure_part"),
         ("if is_small else 0.0", "if False else 0.0", "test_parts -k unsure_part"),
-        ("(best, SCORE.part.max_deformation_of_two)", "(best, 1.0)", "test_parts -k two_open"),
+        ("(found, SCORE.part.max_deformation_of_two)", "(found, 1.0)", "test_parts -k two_open"),
+        ('is_settled = found.verdict == "sure" or', "is_settled =", "test_parts -k lower_probability"),
         ("if scale >= task.least_scale]", "]", "test_parts_alternatives -k search_ends"),
         # where landmarks begin no maps
         ('found.verdict != "sure" and not', "not", "test_registration_evidence -k only_refine"),

@@ -716,11 +716,13 @@ def test_a_part_of_an_open_shape_is_compared_with_the_match_as_wholes(
 @pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])
 def test_two_open_shapes_that_match_as_wholes_have_a_lower_probability(monkeypatch, small, opening, expected):
     """What each has that the other lacks would be squeezed onto it, and scores may hardly tell."""
-    parts_tried(monkeypatch, dict.fromkeys(("source", "target", "both"), fake_match("likely", 0.7)))
-    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: WholeMatch())
+    tried = parts_tried(monkeypatch, dict.fromkeys(("source", "target", "both"), fake_match("likely", 0.88)))
+    whole = WholeMatch(score=SimpleNamespace(deformation_energy=0.2))
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: whole)
     monkeypatch.setattr(match_module, "detect_part", lambda *_: PartDetection("both", "open", opening, True))
     found = match_module.match(small, small, AUTO)
     assert (found.confidence, found.verdict) == (pytest.approx(expected[0]), expected[1])
+    assert "both" not in tried  # two parts are never "sure"
 
 
 @pytest.mark.parametrize(

@@ -109,8 +109,9 @@ def _match_detected(
     which = detection.which
     if which in ("source", "target"):
         return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
-    best = _lower_open(wholes(as_wholes), detection)
-    is_settled = best.verdict == "sure" or _deforms_at_most(best, SCORE.part.max_deformation_of_two)
+    found = wholes(as_wholes)
+    best = _lower_open(found, detection)
+    is_settled = found.verdict == "sure" or _deforms_at_most(found, SCORE.part.max_deformation_of_two)
     if which == "none" or is_settled or task.config.search is None:
         return best
     return _more_probable(best, _match_as(task, "both", detection.reason))
