@@ -168,11 +168,13 @@ def _match_clear_part(task: MatchTask, detection: PartDetection) -> tuple[Match 
     for which in ("source", "target") if first == "source" else ("target", "source"):
         try:
             with task.clock("parts"):
-                part, covers = match_partial(task, which, detection.reason, clear_area=0.0)
+                part, covers = match_partial(task, which, detection.reason, math.sqrt(SCORE.part.full_area), 0.0)
         except GivenUp:
             continue
         if part.verdict == "sure":
             return part, _covering(detection.reason) if covers else none
+        if part.verdict == "ambiguous":  # so would be the other placed on this one
+            break
     return None, none
 
 
