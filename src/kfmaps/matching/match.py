@@ -2,7 +2,8 @@
 
 1. Both shapes are prepared: cleaned, with their bases and descriptors (:mod:`kfmaps.shape`).
 2. Where one shape has much longer open boundaries than the other it may be a part of it. Then the part is placed on the
-   whole (:mod:`~kfmaps.matching.partial.match_partial`).
+   whole (:mod:`~kfmaps.matching.partial.match_partial`). Of two shapes with open boundaries either one may be placed on
+   the other, if there is a clear place.
 3. Otherwise, or where that match is not sure, the shapes are matched as wholes: a search
    (:mod:`~kfmaps.matching.search`) or one fit (:mod:`~kfmaps.matching.fit`) gives a functional map, which is refined on
    all vertices and registered (:mod:`~kfmaps.matching.finish`). Where little seems to be missing and no placement of
