@@ -1209,7 +1209,6 @@ MUTANTS = tuple(
         ("both_partial=True):\n        first", "both_partial=False):\n        first", "test_parts -k clear_part"),
         ('else ("target", "source"):', 'else ("target",):', "test_parts -k clear_part"),
         ("_covering(detection.reason) if covers else none", "none", "test_parts -k compared_with_the_match"),
-        ('if part.verdict == "ambiguous":', "if False:", "test_parts -k clear_part"),
         ("math.sqrt(SCORE.part.full_area), 0.0)", "0.0, 0.0)", "test_parts -k clear_part"),
         (".mean() >= SCORE.distinct_distance or", ".mean() >= 1.0 or", "test_parts -k compared_with_the_match"),
         ('whole.verdict not in ("sure", "ambiguous")', "False", "test_parts -k compared_with_the_match"),

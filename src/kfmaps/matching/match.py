@@ -174,8 +174,6 @@ def _match_clear_part(task: MatchTask, detection: PartDetection) -> tuple[Match 
             continue
         if part.verdict == "sure":
             return part, _covering(detection.reason) if covers else none
-        if part.verdict == "ambiguous":  # so would be the other placed on this one
-            break
     return None, none
 
 
