@@ -107,13 +107,17 @@ def main() -> None:
             for number in range(arguments.pairs):
                 rows.append(run(arguments.data, arguments.half, name, change, number))
                 print(json.dumps(rows[-1]), flush=True)
-    print(f"\n{'region':8}{'pairs':>6}{'error':>8}{'worst':>8}{'right':>6}{'sure':>6}{'wrong':>6}{'CPU s':>8}")
-    for name in dict.fromkeys(r["region"] for r in rows):
-        here = [r for r in rows if r["region"] == name]
+    print(
+        f"\n{'region':8}{'pairs':>6}{'error':>8}{'median':>8}{'worst':>8}{'right':>6}{'sure':>6}{'wrong':>6}"
+        f"{'CPU s':>8}"
+    )
+    for name in (*dict.fromkeys(r["region"] for r in rows), "all"):
+        here = [r for r in rows if name in (r["region"], "all")]
         errors, sure = np.array([r["error"] for r in here]), np.array([r["verdict"] == "sure" for r in here])
         print(
-            f"{name:8}{len(here):6}{errors.mean():8.2f}{errors.max():8.2f}{(errors < RIGHT).sum():6}{sure.sum():6}"
-            f"{(sure & (errors >= RIGHT)).sum():6}{np.mean([r['seconds'] for r in here]):8.1f}"
+            f"{name:8}{len(here):6}{errors.mean():8.2f}{np.median(errors):8.2f}{errors.max():8.2f}"
+            f"{(errors < RIGHT).sum():6}{sure.sum():6}{(sure & (errors >= RIGHT)).sum():6}"
+            f"{np.mean([r['seconds'] for r in here]):8.1f}"
         )
     if arguments.json:
         arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")

@@ -104,10 +104,10 @@ def _match_detected(
 
     ``tried``: what has been stated and matched already: two parts are not matched again.
     """
-    part, as_wholes = _match_clear_part(task, detection)
-    if part is not None:
-        return _check_by_wholes(part, wholes(as_wholes), as_wholes.suspected)
-    which = detection.which
+    which, as_wholes, clear = detection.which, MatchPart(reason=detection.reason), _match_clear_part(task, detection)
+    if clear is not None:
+        part, covers = clear
+        return _check_by_wholes(part, wholes(_covering(detection.reason) if covers else as_wholes), covers)
     if which in ("source", "target"):
         return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
     found = wholes(as_wholes)
@@ -119,7 +119,7 @@ def _match_detected(
 
 
 def _lower_open(match: Match, detection: PartDetection) -> Match:
-    """Return a match as wholes with a lower probability where one shape is open; any other as it is.
+    """Return a match as wholes with a lower probability where a shape is open; any other as it is.
 
     Nothing is known about what is missing.
     """
@@ -152,17 +152,16 @@ def _match_open(
     return _more_probable(best, _match_as(task, "both", "both have open boundaries"))
 
 
-def _match_clear_part(task: MatchTask, detection: PartDetection) -> tuple[Match | None, MatchPart]:
+def _match_clear_part(task: MatchTask, detection: PartDetection) -> tuple[Match, bool] | None:
     """Return the match of one of two open shapes as a part of the other if it soon is "sure".
 
-    As wholes two heads, say, that were cut at different places are squeezed onto each other, and scores may not tell.
-    The shape that is smaller in files of one unit is the part first, else the more open one. Also return what a match
-    as wholes says about parts: it is called for (``suspected``) where each covers the other.
+    Also return whether each covers the other. As wholes two heads, say, that were cut at different places are squeezed
+    onto each other, and scores may not tell. The shape that is smaller in files of one unit is the part first, else the
+    more open one.
     """
-    none = MatchPart(reason=detection.reason)
     is_cut = detection.both_open and detection.opening > SCORE.part.max_small_opening
     if task.config.search is None or not is_cut:
-        return None, none
+        return None
     ratio, first = file_ratio(*task.shapes("preserving")), detection.more_open
     if ratio is not None and same_units("auto", ratio, both_partial=True):
         first = "source" if ratio > 1 else "target"
@@ -173,8 +172,8 @@ def _match_clear_part(task: MatchTask, detection: PartDetection) -> tuple[Match 
         except GivenUp:
             continue
         if part.verdict == "sure":
-            return part, _covering(detection.reason) if covers else none
-    return None, none
+            return part, covers
+    return None
 
 
 def _covering(reason: str) -> MatchPart:
