@@ -13,18 +13,20 @@ from kfmaps._arrays import InvalidInput
 from kfmaps._progress import StageTimer
 from kfmaps.config import Partial
 from kfmaps.datasets import largest_piece
+from kfmaps.descriptors.shot import shot
 from kfmaps.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.geodesics import geodesic_distances
-from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, mirror_mesh, surface_area, unit_area
 from kfmaps.io import load_map, save_map
 from kfmaps.matching import match as match_module
 from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
+from kfmaps.matching.partial import place_part as place_part_module
 from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, file_ratio, match_partial
-from kfmaps.matching.partial.place_part import GivenUp, PartTask, place_part, same_units
+from kfmaps.matching.partial.place_part import GivenUp, PartTask, PlacedPart, place_part, same_units
 from kfmaps.matching.partial.relaxation_labeling import (
     _SLACK,
     Assignment,
@@ -34,7 +36,7 @@ from kfmaps.matching.partial.relaxation_labeling import (
     reassign,
     relax,
 )
-from kfmaps.matching.partial.samples import part_samples
+from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result_groups import MatchPart
@@ -332,6 +334,91 @@ def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeyp
     assert found.confidence == pytest.approx(probability(20.0, 0.0, support=support, numbers=numbers), rel=1e-6)
     assert found.verdict == verdict(20.0, 0.0, support=support, numbers=numbers)
     assert found.score.rejected_landmarks.tolist() == [1]
+
+
+def reversing(config, orientation="reversing"):
+    """The settings with an orientation."""
+    return replace(config, search=replace(config.search, orientation=orientation))
+
+
+def test_the_mirror_image_of_a_part_is_placed_where_it_is_asked_for(pair, turned, found, truth, monkeypatch):
+    """As a fragment of a left bone on a right one: by the same map."""
+    monkeypatch.setattr("kfmaps.matching.partial.place_part.SCALES", SCALES[4::3])
+    mirrored = match(pair.source, mirror_mesh(turned), reversing(AUTO))
+    assert (mirrored.orientation, found.orientation) == ("reversing", "preserving")
+    assert precise_errors(pair.source, mirrored.precise(), truth.places).mean() < 0.03
+
+
+@pytest.mark.parametrize(
+    ("scores", "best", "word"),
+    [
+        ((30.0, 29.9), "preserving", "ambiguous"),
+        ((24.0, 30.0), "reversing", "sure"),
+        ((None, 30.0), "reversing", "sure"),
+    ],
+)
+def test_with_either_orientation_the_better_part_is_taken(small, monkeypatch, scores, best, word):
+    places, all_ = vertex_point_map(np.arange(200), small.mesh), np.ones(200)
+
+    def place(task, **_):
+        score = scores[int(not np.array_equal(task.whole.vertices, small.mesh.vertices))]
+        if score is None:
+            raise GivenUp
+        registered = SimpleNamespace(scale=1.0, vertices=task.whole.vertices)
+        overlap = SimpleNamespace(part=all_, whole=all_, on_whole=places, on_part=places)
+        return PlacedPart(registered, overlap, (score,), 9.0, task.whole.vertices)  # pyright: ignore[reportArgumentType]
+
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
+    either = reversing(SMALL, "either")
+    found = match_partial(task_of(small, small, NO_LANDMARKS, either), "source", "because")[0]
+    assert (found.orientation, found.verdict) == (best, word)
+    lying: Any = found.registration.registered_vertices
+    np.testing.assert_allclose(lying, small.mesh.vertices, atol=1e-9)
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", refuse_all)
+    with pytest.raises(GivenUp):
+        match_partial(task_of(small, small, NO_LANDMARKS, either), "source", "because")
+
+
+def test_the_mirror_image_of_a_part_is_a_rival_where_it_fits_better(pair, turned, found, monkeypatch):
+    """As of a left bone's fragment on a right bone: the whole's other half may look alike, and nothing else tells."""
+    part, whole = unit_area(mirror_mesh(turned)), unit_area(pair.source)
+    samples = part_samples(part, 100), part_samples(whole, 300)
+    for radius in (0.1, 0.2):
+        samples[0].shot(radius)
+        there = shot(mirror_mesh(part), radius, at=samples[0].samples, samples=10_000)
+        np.testing.assert_allclose(samples[0].mirrored.shot(radius), there, atol=1e-4)
+    best: Any = SimpleNamespace(registration=SimpleNamespace(scale=found.partial.scale))
+    placed = place_part_module._place_mirrored(best, PartPair(*samples))
+    off = np.linalg.norm(placed.registration.vertices - whole.vertices[pair.truth], axis=1)
+    assert np.median(off) < 0.05
+    monkeypatch.setattr(place_part_module, "SCALES", SCALES[4:5])
+    monkeypatch.setattr(place_part_module, "_register_fully", lambda found, *_, **__: found)
+    task = PartTask(part, whole, AUTO.partial)
+    plain = place_part(task)
+    gains = SCORE.mirror_gain + 0.1, SCORE.mirror_gain - 0.1
+    better, worse = (replace(placed, score=plain.scores[0] + gain) for gain in gains)
+    for image, is_rival in ((better, True), (worse, False)):
+        monkeypatch.setattr(place_part_module, "_place_mirrored", lambda *_, image=image: image)
+        assert place_part(task).scores == plain.scores
+        seen = place_part(replace(task, may_be_mirrored=True))
+        assert seen.margin == (0.0 if is_rival else plain.margin)
+        others = plain.scores[1:]
+        assert seen.scores == (plain.scores[0], *((image.score,) if is_rival else ()), *others)
+
+
+@pytest.mark.parametrize(("orientation", "may_be"), [("auto", True), ("preserving", False), ("reversing", False)])
+def test_a_mirror_image_is_no_rival_where_the_orientation_is_stated(small, monkeypatch, orientation, may_be):
+    def place(task, **_):
+        assert task.may_be_mirrored == may_be
+        raise GivenUp
+
+    monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
+    with pytest.raises(GivenUp):
+        match_partial(task_of(small, small, NO_LANDMARKS, reversing(SMALL, orientation)), "source", "because")
+
+
+def refuse_all(*_, **__):
+    raise GivenUp
 
 
 def test_distances_decide_between_places_that_look_alike(rng):

@@ -283,6 +283,13 @@ def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, m
         assert chosen.candidates is free
 
 
+def test_with_either_orientation_a_map_that_is_as_isometric_is_a_rival(walk):
+    """Whether a symmetric body was mirrored, or its pose, nobody can tell."""
+    _, source, target = walk
+    found = search_map(source, target, replace(SMALL, search=replace(SMALL.search, orientation="either")))
+    assert (found.orientation, found.verdict) == ("reversing", "ambiguous")
+
+
 ARMS = 5
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 from scipy.spatial import KDTree
 
 from kfmaps._texts import VERDICTS, plural, probability_text, verdict_text
@@ -13,6 +14,7 @@ from kfmaps.config import Config, Search
 from kfmaps.datasets import sphere
 from kfmaps.evaluation import Truth, assess
 from kfmaps.kernels.transformed import Metric
+from kfmaps.matching.orientation import orientation_text
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
 from kfmaps.registration.accept import RegistrationReport
@@ -38,6 +40,14 @@ def test_a_page_says_the_same() -> None:
     record = verdict_record(_match(orientation="reversing"), SPHERE, SPHERE)
     assert record is not None
     assert str(record["text"]).startswith(f"{VERDICTS['sure']} Orientation reversed: ")
+
+
+@pytest.mark.parametrize(("scores", "is_told"), [((5.0, 6.1), True), ((5.0, 5.9), False), ((5.0,), False)])
+def test_of_a_part_only_its_mirror_image_has_a_better_score(scores: tuple[float, ...], is_told: bool) -> None:
+    match = replace(_match(partial=MatchPart("target"), score=MatchScore(scores)), verdict="ambiguous")
+    text = orientation_text(match, SPHERE, SPHERE)
+    assert ("--orientation reversing" in text) == is_told
+    assert orientation_text(replace(match, verdict="likely"), SPHERE, SPHERE) == ""
 
 
 def test_probabilities_are_whole_per_cents_but_at_the_ends() -> None:

@@ -31,7 +31,8 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     nearly as well: then the shape is nearly its own mirror image, and the poses may be mirrored, as those of a walk.
     There landmarks decide. Any other that is better becomes a doubt. So does the best map where it is replaced, unless
     landmarks decide or the shapes are congruent: of two poses of a person in a robe, one mirrored, none that keeps
-    orientation does so as well.
+    orientation does so as well. With the setting "either" the better map is taken, and the other is a rival unless it
+    is much less isometric.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
@@ -63,8 +64,8 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     advantage = _isometry_advantage(image, state.candidates) - SCORE.isometry_margin
     may_reverse = not is_auto or is_led or (state.may_reverse and advantage > 0)
     if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:
-        has_rival = is_auto and not (is_congruent or is_led)
-        doubts = ((state.ranked[0], SCORE.isometry_factor * advantage),) if has_rival else ()
+        lead = min(SCORE.isometry_factor * advantage, np.inf if is_auto else gain)
+        doubts = () if is_auto and (is_congruent or is_led) else ((state.ranked[0], lead),)
         samples = replace(samples, fine=mirrored)
         return replace(
             state,
@@ -75,13 +76,16 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             orientation="reversing",
             doubts=doubts,
         )
-    return replace(state, doubts=((image, -gain),)) if is_auto and gain > SCORE.mirror_gain else state
+    if is_auto:
+        return replace(state, doubts=((image, -gain),)) if gain > SCORE.mirror_gain else state
+    advantage = _isometry_advantage(state.ranked[0], images) - SCORE.isometry_margin
+    return replace(state, doubts=((image, min(SCORE.isometry_factor * advantage, -gain)),))
 
 
-def _isometry_advantage(image: Candidate, found: list[Candidate]) -> float:
-    """Return by how much the map to the mirror image is more isometric than all maps that keep orientation."""
-    kept = [c.quality.isometry_score for c in found if c.quality.orientation > 0.5]
-    return image.quality.isometry_score - max(kept, default=-np.inf)
+def _isometry_advantage(best: Candidate, others: list[Candidate]) -> float:
+    """Return by how much ``best`` is more isometric than all maps of the other orientation."""
+    kept = [c.quality.isometry_score for c in others if c.quality.orientation > 0.5]
+    return best.quality.isometry_score - max(kept, default=-np.inf)
 
 
 def _landmarks_prefer(image: Candidate, mirrored: SamplePair, state: SearchState) -> bool:
@@ -135,8 +139,10 @@ def orientation_text(match: Match, source: Mesh, target: Mesh) -> str:
 
 
 def _is_mirror_image_better(match: Match, source: Mesh, target: Mesh) -> bool:
-    """Return whether the first alternative is a map to the mirror image with a better score."""
-    scores, has_alternative = match.score.scores, len(match.alternatives) > 0
-    if not has_alternative or match.partial.which != "none" or scores[1] - scores[0] <= SCORE.mirror_gain:
+    """Return whether a map to the mirror image has a better score: of a part the second, else the first alternative."""
+    scores = match.score.scores
+    if len(scores) < 2 or scores[1] - scores[0] <= SCORE.mirror_gain:
         return False
-    return reverses_orientation(source, target, match.alternatives[0])
+    if match.partial.which != "none":
+        return True
+    return len(match.alternatives) > 0 and reverses_orientation(source, target, match.alternatives[0])

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -91,6 +91,7 @@ class PartTask:
     clear_area: float = math.inf
     # Returns the images of vertices of a whole by its near-symmetries (:func:`kfmaps.matching.self_maps.self_images`).
     self_images: Callable[..., np.ndarray] | None = None
+    may_be_mirrored: bool = False  # whether a mirror image of the part that fits better is a rival
 
     @cached_property
     def is_one_view(self) -> bool:
@@ -139,8 +140,11 @@ def place_part(
         on = PartSurface(whole)
         last = refine_registration(last, proxies[0], part, on, pairs)
     paid = found[0].evidence.landmark_cost
-    scores = tuple(one.score + paid for one in found)
-    return PlacedPart(last, find_overlap(last, on), scores, margin(found, len(pairs)), unguided)
+    lead, scores = margin(found, len(pairs)), [one.score + paid for one in found]
+    image = _place_mirrored(found[0], pair) if task.may_be_mirrored else None
+    if image is not None and image.score > found[0].score + SCORE.mirror_gain:
+        lead, scores = 0.0, [scores[0], image.score + paid, *scores[1:]]
+    return PlacedPart(last, find_overlap(last, on), tuple(scores), lead, unguided)
 
 
 def same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
@@ -193,6 +197,12 @@ def _regrow_unsure(order: list[PartCandidate], pair: PartPair, task: PartTask) -
     """Return ``order`` where its first candidate would be called "sure", else also what grows from it."""
     is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=task.calibration) == "sure"
     return order if is_sure else regrow_best(order, pair)
+
+
+def _place_mirrored(best: PartCandidate, pair: PartPair) -> PartCandidate:
+    """Return the mirror image of the part, registered from a placement at the scale of the ``best`` candidate."""
+    mirrored = replace(pair, part=pair.part.mirrored)
+    return make_candidate(refine_placement(mirrored, try_scales(mirrored, [best.registration.scale])[0]), mirrored)
 
 
 def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidate]:

@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
-from kfmaps.descriptors.shot import shot
+from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.connectivity import renumbering
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
-from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_areas
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, mirror_mesh, surface_area, vertex_areas
 from kfmaps.matching.partial.one_view import views
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
@@ -62,6 +62,12 @@ class PartSamples(PartSurface):
     def landmarks(self) -> np.ndarray:
         """The vertices that are landmarks, (l,)."""
         return self.samples[: self.n_landmarks]
+
+    @property
+    def mirrored(self) -> PartSamples:
+        """The samples of the mirror image."""
+        found = {radius: mirror_shot(one) for radius, one in self.descriptors.items()}
+        return replace(self, mesh=mirror_mesh(self.mesh), descriptors=found, view_descriptors={})
 
     def shot(self, radius: float) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
