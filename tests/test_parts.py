@@ -510,6 +510,8 @@ class OpenMatch:
     confidence: float
     target_to_source: np.ndarray
     moved: float
+    partial: MatchPart = field(default_factory=MatchPart)
+    score: Any = field(default_factory=lambda: SimpleNamespace(deformation_energy=0.02))
 
     @property
     def source(self) -> Mesh:
@@ -798,7 +800,37 @@ def test_a_part_of_an_open_shape_is_compared_with_the_match_as_wholes(
     found = match_module.match(small, small, AUTO)
     assert found.target_to_source is {"whole": whole, "part": part}[expected].target_to_source
     assert (found.verdict, found.confidence) == (told, 0.95 if expected == "part" and told == "sure" else 0.6)
-    assert reasons == ["taken for whole: both open, but each covers all of the other" if covers else "both open"]
+    assert reasons == ["both open"]
+    if expected == "whole":
+        assert found.partial.reason == "taken for whole: both open, but each covers all of the other"
+
+
+@pytest.mark.parametrize(
+    ("detected", "word", "energy", "scale", "steps"),
+    [
+        ("both", "sure", 0.014, 0.9, ["whole"]),  # the cuts are the same
+        ("none", "sure", 0.014, 0.9, ["whole"]),
+        ("both", "likely", 0.014, 0.9, ["whole", "target"]),
+        ("both", "sure", 0.016, 0.9, ["whole", "target"]),
+        ("both", "sure", None, 0.9, ["whole", "target"]),
+        ("target", "sure", 0.014, 0.9, ["target", "whole"]),  # one is much more open, and more probably a part
+        ("target", "sure", 0.014, 0.8, ["target"]),  # as wholes it has another map
+    ],
+)
+def test_neither_a_part_nor_wholes_are_matched_where_the_answer_is_known(
+    monkeypatch, small, detected, word, energy, scale, steps
+):
+    tried, points = [], np.array([0, 0, -1])
+    part = OpenMatch("sure", 0.95, points, 0.09, MatchPart(scale=scale))
+    whole = OpenMatch(word, 0.93, points, 0.09, score=SimpleNamespace(deformation_energy=energy))
+    monkeypatch.setattr(
+        match_module, "match_partial", lambda _task, which, *_, **__: tried.append(which) or (part, False)
+    )
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: tried.append("whole") or whole)
+    detection = PartDetection(detected, "open", 0.3, True, "target")
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: detection)
+    assert match_module.match(small, small, AUTO) is (whole if steps == ["whole"] else part)
+    assert tried == steps
 
 
 @pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])

@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from typing import Literal, TypeGuard
 
 import numpy as np
@@ -104,13 +104,18 @@ def _match_detected(
 
     ``tried``: what has been stated and matched already: two parts are not matched again.
     """
-    which, as_wholes, clear = detection.which, MatchPart(reason=detection.reason), _match_clear_part(task, detection)
+    which, match_wholes = detection.which, cache(lambda: wholes(MatchPart(reason=detection.reason)))
+    if which in ("none", "both") and _has_same_cuts(match_wholes()):
+        return match_wholes()
+    clear = _match_clear_part(task, detection)
     if clear is not None:
         part, covers = clear
-        return _check_by_wholes(part, wholes(_covering(detection.reason) if covers else as_wholes), covers)
+        if not covers and _share(part) < SCORE.part.min_whole_area:
+            return part
+        return _check_by_wholes(part, match_wholes(), _covering(detection.reason) if covers else None)
     if which in ("source", "target"):
         return _lower_open(_match_open(task, which, detection, wholes, tried), detection)
-    found = wholes(as_wholes)
+    found = match_wholes()
     best = _lower_open(found, detection)
     is_settled = found.verdict == "sure" or _deforms_at_most(found, SCORE.part.max_deformation_of_two)
     if which == "none" or is_settled or task.config.search is None:
@@ -181,18 +186,19 @@ def _covering(reason: str) -> MatchPart:
     return MatchPart(reason=f"taken for whole: {reason}, but each covers all of the other", suspected=True)
 
 
-def _check_by_wholes(part: Match, whole: Match, covers: bool) -> Match:
+def _check_by_wholes(part: Match, whole: Match, covering: MatchPart | None) -> Match:
     """Return the match of one of two open shapes as a part of the other, or that as wholes.
 
     Only a match as wholes is compared with maps that exchange limbs. So where it has the same map, and is "ambiguous",
-    the part is no surer. It is the answer where each shape ``covers`` the other: it has what collections need.
+    the part is no surer. It is the answer where each shape covers the other: it has what collections need.
+    ``covering``: what it says of parts then.
     """
     known, vertices = part.target_to_source >= 0, unit_area(part.source).vertices
     moved = vertices[whole.target_to_source[known]] - vertices[part.target_to_source[known]]
     if np.linalg.norm(moved, axis=1).mean() >= SCORE.distinct_distance or whole.verdict not in ("sure", "ambiguous"):
         return part
-    if covers:
-        return whole
+    if covering is not None:
+        return replace(whole, partial=covering)
     return part if whole.verdict == "sure" else replace(part, confidence=whole.confidence, verdict=whole.verdict)
 
 
@@ -274,6 +280,11 @@ def _is_whole(match: Match, detection: PartDetection) -> bool:
     if detection.opening <= SCORE.part.max_small_opening:
         return True
     return _may_be_whole(detection) and _deforms_at_most(match, SCORE.part.max_whole_deformation)
+
+
+def _has_same_cuts(match: Match) -> bool:
+    """Return whether a match as wholes is "sure" and deforms so little that neither shape has what the other lacks."""
+    return match.verdict == "sure" and _deforms_at_most(match, SCORE.part.max_deformation_of_equal)
 
 
 def _deforms_at_most(match: Match, limit: float) -> bool:

@@ -149,6 +149,9 @@ class PartScoring:
     max_whole_deformation: float = 0.3
     """Deformation energy of a match as wholes up to which a shape with openings like holes is whole: right maps of
     unlike animals have 0.2 to 0.4."""
+    max_deformation_of_equal: float = 0.015
+    """The same up to which two open shapes have the same cuts if the match is "sure": right maps of regions that are
+    cut alike have 0.012 to 0.05, squeezed ones 0.017 and more (research/parts.md)."""
     max_deformation_of_two: float = 0.1
     """The same where both have long boundaries: with parts missing of both it is 0.24 and more."""
     shrunk_scale: float = 0.26
