@@ -387,23 +387,30 @@ def test_the_mirror_image_of_a_part_is_a_rival_where_it_fits_better(pair, turned
         samples[0].shot(radius)
         there = shot(mirror_mesh(part), radius, at=samples[0].samples, samples=10_000)
         np.testing.assert_allclose(samples[0].mirrored.shot(radius), there, atol=1e-4)
-    best: Any = SimpleNamespace(registration=SimpleNamespace(scale=found.partial.scale))
-    placed = place_part_module._place_mirrored(best, PartPair(*samples))
-    off = np.linalg.norm(placed.registration.vertices - whole.vertices[pair.truth], axis=1)
+    pair_of_samples = PartPair(*samples)
+
+    def best(placement: float, score: float) -> Any:
+        registered, placed = SimpleNamespace(scale=found.partial.scale), SimpleNamespace(score=placement)
+        return SimpleNamespace(registration=registered, placement=placed, score=score)
+
+    image = place_part_module._find_better_mirrored(best(-99.0, -99.0), pair_of_samples)
+    assert image is not None
+    off = np.linalg.norm(image.registration.vertices - whole.vertices[pair.truth], axis=1)
     assert np.median(off) < 0.05
+    # It must fit better both before and after registration.
+    own = image.placement.score - SCORE.part.mirror_gain, image.score - SCORE.mirror_gain
+    for behind, is_better in (((0.1, 0.1), True), ((-0.1, 0.1), False), ((0.1, -0.1), False)):
+        other = best(own[0] - behind[0], own[1] - behind[1])
+        assert (place_part_module._find_better_mirrored(other, pair_of_samples) is not None) == is_better
     monkeypatch.setattr(place_part_module, "SCALES", SCALES[4:5])
     monkeypatch.setattr(place_part_module, "_register_fully", lambda found, *_, **__: found)
     task = PartTask(part, whole, AUTO.partial)
     plain = place_part(task)
-    gains = SCORE.mirror_gain + 0.1, SCORE.mirror_gain - 0.1
-    better, worse = (replace(placed, score=plain.scores[0] + gain) for gain in gains)
-    for image, is_rival in ((better, True), (worse, False)):
-        monkeypatch.setattr(place_part_module, "_place_mirrored", lambda *_, image=image: image)
+    for one, extra, lead in ((image, (image.score,), 0.0), (None, (), plain.margin)):
+        monkeypatch.setattr(place_part_module, "_find_better_mirrored", lambda *_, one=one: one)
         assert place_part(task).scores == plain.scores
         seen = place_part(replace(task, may_be_mirrored=True))
-        assert seen.margin == (0.0 if is_rival else plain.margin)
-        others = plain.scores[1:]
-        assert seen.scores == (plain.scores[0], *((image.score,) if is_rival else ()), *others)
+        assert (seen.margin, seen.scores) == (lead, (plain.scores[0], *extra, *plain.scores[1:]))
 
 
 @pytest.mark.parametrize(("orientation", "may_be"), [("auto", True), ("preserving", False), ("reversing", False)])

@@ -283,11 +283,27 @@ def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, m
         assert chosen.candidates is free
 
 
-def test_with_either_orientation_a_map_that_is_as_isometric_is_a_rival(walk):
+@pytest.mark.parametrize(
+    ("way", "advantage", "gain", "verdict"),
+    [
+        ("reversing", 0.9, 3.0, "ambiguous"),
+        ("reversing", 3.0, 0.4, "ambiguous"),
+        ("reversing", 3.0, 3.0, "sure"),
+        ("preserving", 0.9, -3.0, "ambiguous"),
+        ("preserving", 3.0, -0.1, "ambiguous"),
+        ("preserving", 3.0, -3.0, "sure"),
+    ],
+)
+def test_with_either_orientation_a_map_of_the_other_is_a_rival_unless_it_is_much_less_isometric(
+    walk, monkeypatch, way, advantage, gain, verdict
+):
     """Whether a symmetric body was mirrored, or its pose, nobody can tell."""
-    _, source, target = walk
-    found = search_map(source, target, replace(SMALL, search=replace(SMALL.search, orientation="either")))
-    assert (found.orientation, found.verdict) == ("reversing", "ambiguous")
+    monkeypatch.setattr(orientation, "_isometry_advantage", lambda *_: advantage)
+    monkeypatch.setattr(orientation, "_gain", lambda *_: gain)
+    posed, source, mirrored = walk
+    config = replace(SMALL, search=replace(SMALL.search, orientation="either"))
+    found = search_map(source, mirrored if way == "reversing" else prepare(posed.target, SMALL), config)
+    assert (found.orientation, found.verdict) == (way, verdict)
 
 
 ARMS = 5

@@ -156,8 +156,9 @@ class Search:
     """The search among many candidate maps; see :mod:`kfmaps.matching.search`.
 
     ``orientation``: a "reversing" map is one to the mirror image. "auto" takes it only where a map that preserves
-    orientation would deform the source too much and the reversing one does not. "either" takes the one that is clearly
-    better: for bones, shoes or hands, which are not their own mirror images.
+    orientation would deform the source too much and the reversing one does not, and never for a part; a part that fits
+    its mirror image better is "ambiguous". "either" takes the better one, and is "sure" only if the shapes are far from
+    symmetric, as bones, shoes or hands are.
 
     Examples
     --------

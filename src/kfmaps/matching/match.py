@@ -110,7 +110,7 @@ def _match_detected(
     clear = _match_clear_part(task, detection)
     if clear is not None:
         part, covers = clear
-        if not covers and _share(part) < SCORE.part.min_whole_area:
+        if _share(part) < SCORE.part.min_whole_area:
             return part
         return _check_by_wholes(part, match_wholes(), _covering(detection.reason) if covers else None)
     if which in ("source", "target"):

@@ -141,8 +141,8 @@ def place_part(
         last = refine_registration(last, proxies[0], part, on, pairs)
     paid = found[0].evidence.landmark_cost
     lead, scores = margin(found, len(pairs)), [one.score + paid for one in found]
-    image = _place_mirrored(found[0], pair) if task.may_be_mirrored else None
-    if image is not None and image.score > found[0].score + SCORE.mirror_gain:
+    image = _find_better_mirrored(found[0], pair) if task.may_be_mirrored else None
+    if image is not None:
         lead, scores = 0.0, [scores[0], image.score + paid, *scores[1:]]
     return PlacedPart(last, find_overlap(last, on), tuple(scores), lead, unguided)
 
@@ -199,10 +199,17 @@ def _regrow_unsure(order: list[PartCandidate], pair: PartPair, task: PartTask) -
     return order if is_sure else regrow_best(order, pair)
 
 
-def _place_mirrored(best: PartCandidate, pair: PartPair) -> PartCandidate:
-    """Return the mirror image of the part, registered from a placement at the scale of the ``best`` candidate."""
+def _find_better_mirrored(best: PartCandidate, pair: PartPair) -> PartCandidate | None:
+    """Return the mirror image of the part, placed at the scale of the ``best`` candidate, if it fits better.
+
+    It must do so before registration, too: where only less deformation tells, the pose may be mirrored.
+    """
     mirrored = replace(pair, part=pair.part.mirrored)
-    return make_candidate(refine_placement(mirrored, try_scales(mirrored, [best.registration.scale])[0]), mirrored)
+    placement = refine_placement(mirrored, try_scales(mirrored, [best.registration.scale])[0])
+    if placement.score < best.placement.score + SCORE.part.mirror_gain:
+        return None
+    image = make_candidate(placement, mirrored)
+    return image if image.score > best.score + SCORE.mirror_gain else None
 
 
 def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidate]:
