@@ -1229,6 +1229,7 @@ MUTANTS = tuple(
         ("image.score > best.score + SCORE.mirror_gain", "True", "test_parts -k where_it_fits_better"),
         ("best.placement.score + SCORE.part.mirror_gain:", "-99:", "test_parts -k where_it_fits_better"),
         ("lead, scores = 0.0, [", "lead, scores = lead, [", "test_parts -k where_it_fits_better"),
+        ("(descriptors is not None or config.descriptors.extra)", "False", "test_parts -k silently"),
         ("part=pair.part.mirrored", "part=pair.part", "test_parts -k where_it_fits_better"),
         ("mirror_shot(one) for radius", "one for radius", "test_parts -k where_it_fits_better"),
         (

@@ -1,5 +1,6 @@
 """Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed and registered."""
 
+import warnings
 from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
@@ -196,6 +197,22 @@ def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, tr
     ends = pair.source.vertices[pair.truth[back.target_to_source[here]]]
     off = np.linalg.norm(ends - pair.source.vertices[here], axis=1) / np.sqrt(surface_area(pair.source))
     assert off.mean() < 0.05
+
+
+@pytest.mark.parametrize(("which", "is_told"), [("target", True), ("none", False)])
+def test_descriptors_that_take_no_part_are_not_ignored_silently(small, monkeypatch, which, is_told):
+    found = fake_match("sure", 0.95)
+    found.partial = replace(found.partial, which=which)
+    monkeypatch.setattr(match_module, "_match_detected", lambda *_: found)
+    own, computed = np.ones((200, 1)), SimpleNamespace(compute=lambda shape: shape)
+    monkeypatch.setattr(match_module, "prepare_both", lambda *_, **__: (small, small))
+    extra = replace(AUTO.descriptors, extra=(computed,))
+    for config, given in ((AUTO, (own, own)), (replace(AUTO, descriptors=extra), None), (AUTO, None)):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            assert match_module.match(small, small, config, descriptors=given) is found
+        is_given = given is not None or config is not AUTO
+        assert any("descriptors are not used" in str(one.message) for one in told) == (is_told and is_given)
 
 
 def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():

@@ -20,6 +20,7 @@ Where the settings state which shape is a part, that is tried first, and the res
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
@@ -28,7 +29,7 @@ from typing import Literal, TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
-from kfmaps._arrays import Array, seed_of
+from kfmaps._arrays import Array, KfmapsWarning, seed_of
 from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import limit_threads
 from kfmaps.config import Config
@@ -87,8 +88,12 @@ def match(
     with limit_threads(config.threads):
         stated, wholes = config.partial.part, partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
         if stated == "auto":
-            return _match_detected(task, _detect_part(task), wholes)
-        return _match_stated(task, stated, wholes)
+            found = _match_detected(task, _detect_part(task), wholes)
+        else:
+            found = _match_stated(task, stated, wholes)
+    if found.partial.which != "none" and (descriptors is not None or config.descriptors.extra):
+        warnings.warn("your own descriptors are not used: a part is placed by SHOT and distances", KfmapsWarning, 2)
+    return found
 
 
 def _detect_part(task: MatchTask) -> PartDetection:
