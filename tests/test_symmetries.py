@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from conftest import NO_LANDMARKS, SMALL
 from kfmaps import Config, Mesh
+from kfmaps.config import Search
 from kfmaps.datasets import posed_pair, symmetric_creature, two_poses
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Body, Limb
@@ -301,7 +302,7 @@ def test_with_either_orientation_a_map_of_the_other_is_a_rival_unless_it_is_much
     monkeypatch.setattr(orientation, "_isometry_advantage", lambda *_: advantage)
     monkeypatch.setattr(orientation, "_gain", lambda *_: gain)
     posed, source, mirrored = walk
-    config = replace(SMALL, search=replace(SMALL.search, orientation="either"))
+    config = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="either"))
     found = search_map(source, mirrored if way == "reversing" else prepare(posed.target, SMALL), config)
     assert (found.orientation, found.verdict) == (way, verdict)
 
