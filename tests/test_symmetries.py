@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 
 from conftest import NO_LANDMARKS, SMALL
 from kfmaps import Config, Mesh
-from kfmaps.config import Search
 from kfmaps.datasets import posed_pair, symmetric_creature, two_poses
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
 from kfmaps.datasets.skeleton import Body, Limb
@@ -282,29 +281,6 @@ def test_landmarks_alone_put_no_mirror_image_first_and_cast_no_doubt(unmarked, m
         chosen = orientation.choose_orientation(replace(led, may_reverse=may_reverse), deforms_too_much=True)
         assert (chosen.orientation, chosen.doubts) == ("preserving", ())
         assert chosen.candidates is free
-
-
-@pytest.mark.parametrize(
-    ("way", "advantage", "gain", "verdict"),
-    [
-        ("reversing", 0.9, 3.0, "ambiguous"),
-        ("reversing", 3.0, 0.4, "ambiguous"),
-        ("reversing", 3.0, 3.0, "sure"),
-        ("preserving", 0.9, -3.0, "ambiguous"),
-        ("preserving", 3.0, -0.1, "ambiguous"),
-        ("preserving", 3.0, -3.0, "sure"),
-    ],
-)
-def test_with_either_orientation_a_map_of_the_other_is_a_rival_unless_it_is_much_less_isometric(
-    walk, monkeypatch, way, advantage, gain, verdict
-):
-    """Whether a symmetric body was mirrored, or its pose, nobody can tell."""
-    monkeypatch.setattr(orientation, "_isometry_advantage", lambda *_: advantage)
-    monkeypatch.setattr(orientation, "_gain", lambda *_: gain)
-    posed, source, mirrored = walk
-    config = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="either"))
-    found = search_map(source, mirrored if way == "reversing" else prepare(posed.target, SMALL), config)
-    assert (found.orientation, found.verdict) == (way, verdict)
 
 
 ARMS = 5

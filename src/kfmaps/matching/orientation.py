@@ -1,7 +1,8 @@
 """Maps to the mirror image of the target, and whether one of them is the answer.
 
 A map to the mirror image is right where the shapes are a left and a right bone, or where one was mirrored by mistake.
-The shapes usually preserve orientation, so such a map must be much better unless the settings ask for either.
+The shapes usually preserve orientation, so such a map must be much better. With the setting "either" both are matched
+(:mod:`kfmaps.matching.match`).
 """
 
 from __future__ import annotations
@@ -22,34 +23,32 @@ from kfmaps.matching.search_state import SearchState
 
 
 def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchState:
-    """Compare the best map with maps to the mirror image where the settings ask for it, or where one may be better.
+    """Compare the best map with maps to the mirror image where the orientation is "auto" and one may be better.
 
-    With the setting "auto", maps to the mirror image are registered only where the best map ``deforms_too_much`` or
-    where one of them has a better score before registration. One that is clearly better replaces the best map, and so
+    Maps to the mirror image are registered only where the best map ``deforms_too_much`` or where one of them has a
+    better score before registration. One that is clearly better replaces the best map, and so
     does one that is better and hardly deforms the shape, unless the state forbids it
     (:attr:`~kfmaps.matching.search_state.SearchState.may_reverse`) or a map that keeps orientation preserves distances
     nearly as well: then the shape is nearly its own mirror image, and the poses may be mirrored, as those of a walk.
     There landmarks decide. Any other that is better becomes a doubt. So does the best map where it is replaced, unless
     landmarks decide or the shapes are congruent: of two poses of a person in a robe, one mirrored, none that keeps
-    orientation does so as well. With the setting "either" the better map is taken, and the other is a rival unless it
-    is much less isometric.
+    orientation does so as well.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
-    is_auto = config.search.orientation == "auto"
-    if not samples.fine.are_surfaces or not (is_auto or config.search.orientation == "either"):
+    if not samples.fine.are_surfaces or config.search.orientation != "auto":
         return state
     mirrored = mirrored_pair(samples.fine)
     images = mirror_candidates(state.candidates, mirrored)
     score = state.ranked[0].unregistered.score
-    if not images or (is_auto and not deforms_too_much and images[0].score < score + SCORE.mirror_gain):
+    if not images or (not deforms_too_much and images[0].score < score + SCORE.mirror_gain):
         return state
     proxies = ProxyCache.of(state.source, state.target, mirrored)
     # Registration with more points raises no score by more than the margin.
     ranked = ranking(images, mirrored, proxies, state.ranked[0].score - SCORE.close_margin)
     image, energy = ranked[0], ranked[0].deformation_energy
-    gain = _gain(image, state, is_auto)
-    if is_auto and gain > SCORE.mirror_gain:
+    gain = _gain(image, state)
+    if gain > SCORE.mirror_gain:
         # A body that is nearly its own mirror image has a map that preserves orientation and is as good.
         composed = compose_with_symmetries(image, samples)
         if composed:
@@ -57,15 +56,13 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             free = [*state.without_landmarks, *composed] if state.without_landmarks else []
             preserving = ranking(found, samples.fine, state.proxies)
             state = replace(state, candidates=found, without_landmarks=free, ranked=preserving)
-            gain = _gain(image, state, is_auto)
+            gain = _gain(image, state)
     is_congruent = energy is not None and energy < SCORE.congruent_energy
-    is_led = is_auto and state.may_reverse and gain > SCORE.mirror_gain and _landmarks_prefer(image, mirrored, state)
+    is_led = state.may_reverse and gain > SCORE.mirror_gain and _landmarks_prefer(image, mirrored, state)
     margin = SCORE.mirror_gain if is_congruent or is_led else SCORE.mirror_margin
     advantage = _isometry_advantage(image, state.candidates) - SCORE.isometry_margin
-    may_reverse = not is_auto or is_led or (state.may_reverse and advantage > 0)
-    if gain > (margin if is_auto else SCORE.clear_margin) and may_reverse:
-        lead = min(SCORE.isometry_factor * advantage, np.inf if is_auto else gain)
-        doubts = () if is_auto and (is_congruent or is_led) else ((state.ranked[0], lead),)
+    if gain > margin and (is_led or (state.may_reverse and advantage > 0)):
+        doubts = () if is_congruent or is_led else ((state.ranked[0], SCORE.isometry_factor * advantage),)
         samples = replace(samples, fine=mirrored)
         return replace(
             state,
@@ -76,16 +73,13 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
             orientation="reversing",
             doubts=doubts,
         )
-    if is_auto:
-        return replace(state, doubts=((image, -gain),)) if gain > SCORE.mirror_gain else state
-    advantage = _isometry_advantage(state.ranked[0], images) - SCORE.isometry_margin
-    return replace(state, doubts=((image, min(SCORE.isometry_factor * advantage, -gain)),))
+    return replace(state, doubts=((image, -gain),)) if gain > SCORE.mirror_gain else state
 
 
-def _isometry_advantage(best: Candidate, others: list[Candidate]) -> float:
-    """Return by how much ``best`` is more isometric than all maps of the other orientation."""
-    kept = [c.quality.isometry_score for c in others if c.quality.orientation > 0.5]
-    return best.quality.isometry_score - max(kept, default=-np.inf)
+def _isometry_advantage(image: Candidate, found: list[Candidate]) -> float:
+    """Return by how much the map to the mirror image is more isometric than all maps that keep orientation."""
+    kept = [c.quality.isometry_score for c in found if c.quality.orientation > 0.5]
+    return image.quality.isometry_score - max(kept, default=-np.inf)
 
 
 def _landmarks_prefer(image: Candidate, mirrored: SamplePair, state: SearchState) -> bool:
@@ -100,14 +94,14 @@ def _landmarks_prefer(image: Candidate, mirrored: SamplePair, state: SearchState
     return bool(contradicted_without_them(rank_by_surface(state)[0], state.samples.fine).any())
 
 
-def _gain(image: Candidate, state: SearchState, is_auto: bool) -> float:
+def _gain(image: Candidate, state: SearchState) -> float:
     """Return by how much the score of a map to the mirror image exceeds that of the best map.
 
-    With landmarks and the setting "auto" it must exceed it without them too: landmarks with left and right exchanged
-    agree with the mirror image of any body that is nearly its own mirror image.
+    With landmarks it must exceed it without them too: landmarks with left and right exchanged agree with the mirror
+    image of any body that is nearly its own mirror image.
     """
     gain = image.score - state.ranked[0].score
-    if not is_auto or not len(state.landmarks):
+    if not len(state.landmarks):
         return gain
     best = rank_by_surface(state)[0]
     return min(gain, without_landmark_errors(image).score - without_landmark_errors(best).score)

@@ -249,9 +249,8 @@ class Scoring:
     non_isometric_score: float = -8.0
     """:attr:`Quality.score` below which the high functions of two shapes do not correspond."""
     clear_margin: float = 0.3
-    """Margin from which a candidate without descriptors comes first, or a map to the mirror image with the setting
-    "either"; also the largest difference in :attr:`Quality.score` to a map after a symmetry of the shape: octopuses and
-    stars have 0.2."""
+    """Margin from which a candidate without descriptors comes first; also the largest difference in
+    :attr:`Quality.score` to a map after a symmetry of the shape: octopuses and stars have 0.2."""
     mirror_margin: float = 5.0
     """Margin from which a map to the mirror image comes first with the setting "auto"; bones have 10."""
     isometry_margin: float = 0.8
@@ -261,6 +260,9 @@ class Scoring:
     isometry_factor: float = 2.0
     """Factor of what exceeds that margin, in the margin of a map to the mirror image over the best other one: the left
     and the right side of a brain exceed it by 1.7 to 2.0 (research/brains.md)."""
+    either_margin: float = 1.0
+    """Difference of the scores, apart from deformations, up to which a map of the other orientation is a rival with the
+    setting "either"."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
-from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
 import numpy as np
 
 from kfmaps._arrays import refuse, take, to_numpy
-from kfmaps.config import Search
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh
 from kfmaps.matching.finish import MatchTask
-from kfmaps.matching.partial.place_part import GivenUp, PartTask, PlacedPart, place_part
+from kfmaps.matching.partial.place_part import PartTask, PlacedPart, place_part
 from kfmaps.matching.partial.registration import scale_mesh
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchPart, MatchRegistration, MatchScore
@@ -28,16 +25,6 @@ from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
-
-
-@dataclass(frozen=True, eq=False)
-class _OrientedPlacement:
-    """A placed part, its errors at the landmarks, (l,), the numbers of its verdict, and the orientation of its map."""
-
-    found: PlacedPart
-    errors: np.ndarray
-    numbers: Calibration
-    orientation: str
 
 
 def match_partial(
@@ -54,7 +41,9 @@ def match_partial(
     ``least_scale`` and ``clear_area``: see :class:`kfmaps.matching.partial.place_part.PartTask`. With the orientation
     "auto" the map preserves orientation, and is ambiguous where the mirror image of the part fits better.
     """
-    source, target = task.shapes("preserving")
+    search = task.config.search
+    orientation = "reversing" if search is not None and search.orientation == "reversing" else "preserving"
+    source, target = task.shapes(orientation)
     for shape in (source, target):
         if len(shape.mesh.faces) == 0:
             raise refuse(shape.name, "a surface with triangles", "a point cloud", "match it as a whole: partial 'none'")
@@ -63,9 +52,22 @@ def match_partial(
     part, whole = (target, source) if is_target else (source, target)
     pairs = task.pair.clean_landmarks(task.landmarks)
     landmarks = pairs[:, ::-1] if is_target else pairs
-    place = partial(_place_oriented, task, landmarks, which, is_target, least_scale, clear_area)
-    placed = _place_as_set(place, task.config.search, which == "both")
-    found, errors, numbers = placed.found, placed.errors, placed.numbers
+    ratio = ratio if is_target or ratio is None else 1 / ratio
+    placing = PartTask(
+        part.mesh,
+        whole.mesh,
+        task.config.partial,
+        ratio,
+        which == "both",
+        task.seed,
+        least_scale,
+        clear_area,
+        None if which == "both" else partial(self_images, whole, rng=task.seed),
+        may_be_mirrored=search is not None and search.orientation == "auto",
+    )
+    place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
+    numbers = placing.calibration
+    found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")
     overlap, scale = found.overlap, found.registration.scale
     scaled = scale_mesh(part.mesh, scale)
     if is_target:
@@ -76,7 +78,7 @@ def match_partial(
     mass_p, mass_w = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
     areas = mass_p * overlap.part
     distances = scale * geodesic_distances(part.mesh, landmarks[:, 0]) if len(landmarks) else np.zeros((0, len(areas)))
-    registered = found.registration.vertices * (MIRROR if placed.orientation == "reversing" else 1)
+    registered = found.registration.vertices * (MIRROR if orientation == "reversing" else 1)
     calibrated = found.scores[0], found.margin, None, landmark_support(errors, distances, areas), numbers
     match = task.result(
         points,
@@ -86,7 +88,7 @@ def match_partial(
         precise_map=task.pair.given_precise_map(places) if len(task.meshes[0].faces) else None,
         verdict=verdict(*calibrated),
         confidence=probability(*calibrated),
-        orientation=placed.orientation,
+        orientation=orientation,
         score=MatchScore(
             found.scores,
             initialization="a part registered onto the other",
@@ -99,58 +101,6 @@ def match_partial(
         ),
     )
     return match, bool(min(mass_p @ overlap.part, mass_w @ overlap.whole) > SCORE.part.whole_overlap)
-
-
-def _place_oriented(
-    task: MatchTask,
-    landmarks: np.ndarray,
-    which: str,
-    is_target: bool,
-    least_scale: float,
-    clear_area: float,
-    orientation: str,
-) -> _OrientedPlacement:
-    """Place the part by a map of one ``orientation``; ``landmarks (l, 2)``: vertices of the part and of the whole."""
-    source, target = task.shapes(orientation)
-    part, whole = (target, source) if is_target else (source, target)
-    two, ratio = which == "both", file_ratio(source, target)
-    placing = PartTask(
-        part.mesh,
-        whole.mesh,
-        task.config.partial,
-        ratio if is_target or ratio is None else 1 / ratio,
-        two,
-        task.seed,
-        least_scale,
-        clear_area,
-        None if two else partial(self_images, whole, rng=task.seed),
-        may_be_mirrored=task.config.search is not None and task.config.search.orientation == "auto",
-    )
-    place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
-    found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, placing.calibration, two)
-    return _OrientedPlacement(found, errors, placing.calibration, orientation)
-
-
-def _place_as_set(place: Callable[[str], _OrientedPlacement], search: Search | None, two: bool) -> _OrientedPlacement:
-    """Return the placement of the orientation that is set or, with "either", the better one.
-
-    The other is its rival then: only shapes that are far from symmetric tell which of them is right.
-    """
-    orientation = "preserving" if search is None or search.orientation == "auto" else search.orientation
-    if orientation != "either":
-        return place(orientation)
-    found = []
-    for each in ("preserving", "reversing"):
-        with suppress(GivenUp):
-            found.append(place(each))
-    if not found:
-        raise GivenUp
-    scores = [one.found.scores[0] - part_landmark_cost(one.errors, two) for one in found]
-    best = found[int(np.argmax(scores))]
-    if len(found) == 1:
-        return best
-    margin = min(best.found.margin, max(scores) - min(scores))
-    return replace(best, found=replace(best.found, margin=margin))
 
 
 def file_ratio(source: Shape, target: Shape) -> float | None:
