@@ -85,18 +85,19 @@ def match(
         target.given_mesh if isinstance(target, Shape) else target,
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
-    match_wholes = partial(
-        _match_wholes, landmarks=clean_landmarks, descriptors=descriptors, shape_samples=shape_samples
-    )
+
+    def wholes(task: MatchTask) -> Callable[[MatchPart], Match]:
+        return partial(_match_wholes, task, clean_landmarks, descriptors, shape_samples)
+
     is_either = config.search is not None and config.search.orientation == "either"
     with limit_threads(config.threads):
-        found = (_match_either_way if is_either else _match_as_stated)(task, match_wholes)
+        found = _match_either_way(task, wholes) if is_either else _match_as_stated(task, wholes(task))
     if found.partial.which != "none" and (descriptors is not None or config.descriptors.extra):
         warnings.warn("your own descriptors are not used: a part is placed by SHOT and distances", KfmapsWarning, 2)
     return found
 
 
-def _match_either_way(task: MatchTask, match_wholes: Callable[..., Match]) -> Match:
+def _match_either_way(task: MatchTask, wholes: Callable[[MatchTask], Callable[[MatchPart], Match]]) -> Match:
     """Return the better of the map that preserves orientation and the one to the mirror image.
 
     Landmarks decide if it contradicts fewer. Otherwise the other one is its rival unless that fits much less well. Of
@@ -105,11 +106,11 @@ def _match_either_way(task: MatchTask, match_wholes: Callable[..., Match]) -> Ma
     search = task.config.search
     assert search is not None
     if not all(len(mesh.faces) for mesh in task.meshes):  # point clouds have no mirror image
-        return _match_as_stated(task, match_wholes)
+        return _match_as_stated(task, wholes(task))
     found = []
     for way in ("preserving", "reversing"):
-        config = replace(task.config, search=replace(search, orientation=way))
-        found.append(replace(_match_as_stated(replace(task, config=config), match_wholes), config=task.config))
+        one = replace(task, config=replace(task.config, search=replace(search, orientation=way)))
+        found.append(replace(_match_as_stated(one, wholes(one)), config=task.config))
     is_comparable = found[0].partial.which == found[1].partial.which
     fits = [_fit_score(one) if is_comparable else (one.confidence or 0.0) for one in found]
     n_rejected = [len(one.score.rejected_landmarks) for one in found]
@@ -130,9 +131,9 @@ def _fit_score(match: Match) -> float:
     return match.score.scores[0] if match.score.quality is None else match.score.quality
 
 
-def _match_as_stated(task: MatchTask, match_wholes: Callable[..., Match]) -> Match:
+def _match_as_stated(task: MatchTask, wholes: Callable[[MatchPart], Match]) -> Match:
     """Return the match with the part that the settings state, or that the boundaries suggest."""
-    stated, wholes = task.config.partial.part, partial(match_wholes, task)
+    stated = task.config.partial.part
     if stated == "auto":
         return _match_detected(task, _detect_part(task), wholes)
     return _match_stated(task, stated, wholes)
@@ -413,10 +414,10 @@ def _compare_opposite(task: MatchTask, best: Match, which: Literal["source", "ta
 
 def _match_wholes(
     task: MatchTask,
-    as_wholes: MatchPart,
     landmarks: np.ndarray | None,
     descriptors: tuple[Array, Array] | None,
     shape_samples: tuple[ShapeSamples, ShapeSamples] | None,
+    as_wholes: MatchPart,
 ) -> Match:
     """Return the match of two whole shapes, by a search or by one fit; ``as_wholes``: what it says about parts."""
     task = replace(task, partial=as_wholes)
