@@ -157,7 +157,7 @@ class Search:
 
     ``orientation``: a "reversing" map is one to the mirror image. "auto" takes it only where a map that preserves
     orientation would deform the source too much and the reversing one does not, and never for a part; a part that fits
-    its mirror image better is "ambiguous". "either" takes the better one, and is "sure" only if the shapes are far from
+    its mirror image better is "ambiguous". "either" matches both ways, and is "sure" only if the shapes are far from
     symmetric, as bones, shoes or hands are.
 
     Examples

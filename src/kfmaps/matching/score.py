@@ -126,7 +126,7 @@ class PartScoring:
     limb elsewhere up to 0.963 (research/parts.md)."""
     mirror_gain: float = 0.5
     """Gain of the score before registration from which a mirror image of the part may fit better: hands and bones of
-    the other side gain 0.9 to 2.8, parts that are not mirrored 0.35 at most."""
+    the other side gain 0.9 to 2.8, parts that are not mirrored up to 0.45 but for one (research/bones.md)."""
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
     min_whole_area: float = 0.7
@@ -262,7 +262,7 @@ class Scoring:
     and the right side of a brain exceed it by 1.7 to 2.0 (research/brains.md)."""
     either_margin: float = 1.0
     """Difference of the scores, apart from deformations, up to which a map of the other orientation is a rival with the
-    setting "either"."""
+    setting "either": wrong ones are up to 0.35 ahead (research/bones.md)."""
     mirror_gain: float = 1.0
     """Margin from which a map to the mirror image is registered and, if it is still as far ahead, casts a doubt."""
     congruent_energy: float = 0.011
