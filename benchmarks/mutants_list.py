@@ -1220,7 +1220,6 @@ MUTANTS = tuple(
         ('MIRROR if orientation == "reversing" else 1', "1", "test_parts -k lies_on_the_given_whole"),
         ("int(fits[1] > fits[0]) if", "0 if", "test_either_orientation"),
         ("int(n_rejected[1] < n_rejected[0])", "0", "test_either_orientation"),
-        ("is_comparable and fits[chosen]", "fits[chosen]", "test_either_orientation"),
         ("> SCORE.either_margin", "> 0.0", "test_either_orientation"),
         ("confidence = None if best.confidence is None else min(", "confidence = max(", "test_either_orientation"),
         ('or best.verdict == "unlikely":', ":", "test_either_orientation"),

@@ -116,8 +116,8 @@ def _match_either_way(task: MatchTask, wholes: Callable[[MatchTask], Callable[[M
     n_rejected = [len(one.score.rejected_landmarks) for one in found]
     chosen = int(fits[1] > fits[0]) if n_rejected[0] == n_rejected[1] else int(n_rejected[1] < n_rejected[0])
     best, other = found[chosen], found[1 - chosen]
-    is_settled = is_comparable and fits[chosen] - fits[1 - chosen] > SCORE.either_margin
-    if is_settled or n_rejected[0] != n_rejected[1] or best.verdict == "unlikely":
+    is_settled = n_rejected[0] != n_rejected[1] or fits[chosen] - fits[1 - chosen] > SCORE.either_margin
+    if is_settled or best.verdict == "unlikely":
         return best
     alternatives = (other.target_to_source, *best.alternatives)[: search.n_alternatives]
     scores = (best.score.scores[0], other.score.scores[0], *best.score.scores[1:])[: len(alternatives) + 1]
