@@ -201,7 +201,7 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):
     assert found.orientation == "reversing"
     # The two are centred on the mean of slightly different vertices.
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
-    assert [search_map(shape, one, either).orientation for one in (other, mirrored)] == ["preserving", "reversing"]
+    assert [match(shape, one, either).orientation for one in (other, mirrored)] == ["preserving", "reversing"]
     monkeypatch.setattr(orientation, "SCORE", replace(SCORE, congruent_energy=0.0, mirror_margin=100.0))
     kept = search_map(shape, mirrored, SMALL)
     assert (kept.orientation, kept.verdict) == ("preserving", "ambiguous")

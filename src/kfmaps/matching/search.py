@@ -97,6 +97,7 @@ def search_map(
 ) -> SearchResult:
     """Search for the map between two prepared shapes, as ``config.search`` says.
 
+    The orientation "either", of which :mod:`kfmaps.matching.match` makes two searches, counts as "preserving".
     ``landmarks (l, 2)``: pairs "source vertex, target vertex". They guide the candidates and count in their scores.
     ``shape_samples``: samples of both shapes by :func:`scoring_samples` with the same ``rng``, which saves time where a
     shape is matched many times.
