@@ -14,7 +14,8 @@
    as the part is tried last and, where both are open, that with both as parts of something larger. Neither is tried
    where boundaries, or a match as wholes that deforms little, show that hardly anything is missing.
 
-Where the settings state which shape is a part, that is tried first, and the rest where it is not sure.
+Where the settings state which shape is a part, that is tried first, and the rest where it is not sure. With the
+orientation "either" steps 2 to 5 are done twice, once with the mirror image of the target.
 """
 
 from __future__ import annotations

@@ -26,8 +26,8 @@ def choose_orientation(state: SearchState, deforms_too_much: bool) -> SearchStat
     """Compare the best map with maps to the mirror image where the orientation is "auto" and one may be better.
 
     Maps to the mirror image are registered only where the best map ``deforms_too_much`` or where one of them has a
-    better score before registration. One that is clearly better replaces the best map, and so
-    does one that is better and hardly deforms the shape, unless the state forbids it
+    better score before registration. One that is clearly better replaces the best map, and so does one that is better
+    and hardly deforms the shape, unless the state forbids it
     (:attr:`~kfmaps.matching.search_state.SearchState.may_reverse`) or a map that keeps orientation preserves distances
     nearly as well: then the shape is nearly its own mirror image, and the poses may be mirrored, as those of a walk.
     There landmarks decide. Any other that is better becomes a doubt. So does the best map where it is replaced, unless
