@@ -107,8 +107,10 @@ def match_page(
     records = [map_record(mesh, target, points, label) for points, label in zip(maps, labels, strict=True)]
     records[0] |= _transferred(match, mesh, colors)
     confidence = getattr(match, "local_confidence", None)
-    values = {"confidence": [local_confidence(mesh, target, points) for points in maps[confidence is not None :]]}
-    values["confidence"][:0] = [] if confidence is None else [np.asarray(confidence)]
+    fits = [local_confidence(mesh, target, points) for points in maps[confidence is not None :]]
+    fits[:0] = [] if confidence is None else [np.asarray(confidence)]
+    # Vertices without a counterpart have no fit, which would count as a bad one.
+    values = {"confidence": [np.where(points < 0, np.nan, fit) for points, fit in zip(maps, fits, strict=True)]}
     if truth is not None:
         values["errors"] = list(vertex_errors(mesh, maps, truth.source, truth.target))
     waves = [rows.T for rows in signatures(mesh, target)] if descriptors else [[], []]
