@@ -1227,7 +1227,7 @@ MUTANTS = tuple(
         ("search=replace(search, orientation=way)", "search=search", "test_either_orientation"),
         ("task.shapes(orientation)", 'task.shapes("preserving")', "test_parts -k mirror_image_of_a_part_is_placed"),
         ("image.score > best.score + SCORE.mirror_gain", "True", "test_parts -k where_it_fits_better"),
-        ("best.placement.score + SCORE.part.mirror_gain:", "-99:", "test_parts -k where_it_fits_better"),
+        ("placement.score <= best.placement.score:", "False:", "test_parts -k where_it_fits_better"),
         ("lead, scores = 0.0, [", "lead, scores = lead, [", "test_parts -k where_it_fits_better"),
         ("(descriptors is not None or config.descriptors.extra)", "False", "test_parts -k silently"),
         ("part=pair.part.mirrored", "part=pair.part", "test_parts -k where_it_fits_better"),

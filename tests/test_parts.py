@@ -402,7 +402,7 @@ def test_the_mirror_image_of_a_part_is_a_rival_where_it_fits_better(pair, turned
     off = np.linalg.norm(image.registration.vertices - whole.vertices[pair.truth], axis=1)
     assert np.median(off) < 0.05
     # It must fit better both before and after registration.
-    own = image.placement.score - SCORE.part.mirror_gain, image.score - SCORE.mirror_gain
+    own = image.placement.score, image.score - SCORE.mirror_gain
     for behind, is_better in (((0.1, 0.1), True), ((-0.1, 0.1), False), ((0.1, -0.1), False)):
         other = best(own[0] - behind[0], own[1] - behind[1])
         assert (place_part_module._find_better_mirrored(other, pair_of_samples) is not None) == is_better

@@ -124,9 +124,6 @@ class PartScoring:
     early_exit_agreement: float = 0.97
     """Share of the samples on which another relaxation must agree with it: right ones have 0.973 and more, those with a
     limb elsewhere up to 0.963 (research/parts.md)."""
-    mirror_gain: float = 0.5
-    """Gain of the score before registration from which a mirror image of the part may fit better: hands and bones of
-    the other side gain 0.9 to 2.8, parts that are not mirrored up to 0.45 but for one (research/bones.md)."""
     min_gain: float = 0.2
     """Gain of the score below which a placement is refined no further."""
     min_whole_area: float = 0.7

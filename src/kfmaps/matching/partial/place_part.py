@@ -206,7 +206,7 @@ def _find_better_mirrored(best: PartCandidate, pair: PartPair) -> PartCandidate 
     """
     mirrored = replace(pair, part=pair.part.mirrored)
     placement = refine_placement(mirrored, try_scales(mirrored, [best.registration.scale])[0])
-    if placement.score < best.placement.score + SCORE.part.mirror_gain:
+    if placement.score <= best.placement.score:
         return None
     image = make_candidate(placement, mirrored)
     return image if image.score > best.score + SCORE.mirror_gain else None
