@@ -53,6 +53,12 @@ class MatchTask:
     clock: StageTimer
     partial: MatchPart = field(default_factory=MatchPart)  # why the shapes were taken for whole
 
+    @property
+    def orientation(self) -> str:
+        """The orientation that maps have by the settings; "preserving" unless they say "reversing"."""
+        search = self.config.search
+        return "reversing" if search is not None and search.orientation == "reversing" else "preserving"
+
     def shapes(self, orientation: str) -> tuple[Shape, Shape]:
         """Return both cleaned shapes; the target mirrored where the map is to its mirror image."""
         target = self.pair.target

@@ -425,16 +425,17 @@ def _match_wholes(
     config, report = task.config, task.clock.report
     if config.search is None:
         return refine_and_register(task, _fit_once(task, landmarks, descriptors), None)
-    is_reversing = config.search.orientation == "reversing"
     with task.clock("candidates"):
         found = search_map(
-            *task.shapes("reversing" if is_reversing else "preserving"),
+            *task.shapes(task.orientation),
             config,
             landmarks=landmarks,
             descriptors=descriptors,
             rng=task.seed,
             progress=report,
-            shape_samples=None if is_reversing else shape_samples,  # they are not of the mirror image
+            shape_samples=None
+            if task.orientation == "reversing"
+            else shape_samples,  # they are not of the mirror image
         )
     return _retry_torn(task, found, _finish_result(task, found))
 

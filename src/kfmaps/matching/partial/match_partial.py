@@ -41,8 +41,7 @@ def match_partial(
     ``least_scale`` and ``clear_area``: see :class:`kfmaps.matching.partial.place_part.PartTask`. With the orientation
     "auto" the map preserves orientation, and is ambiguous where the mirror image of the part fits better.
     """
-    search = task.config.search
-    orientation = "reversing" if search is not None and search.orientation == "reversing" else "preserving"
+    search, orientation = task.config.search, task.orientation
     source, target = task.shapes(orientation)
     for shape in (source, target):
         if len(shape.mesh.faces) == 0:
