@@ -902,9 +902,24 @@ MUTANTS = tuple(
             "test_alternating_registration -k much_is_repaired",
         ),
         (
-            "_repaired_often(c, state) if is_close_but_deformed(c, best, factor) else c",
-            "c",
+            "if is_close_but_deformed(candidate, best, state.samples.fine.margin_factor):",
+            "if False:",
             "test_alternating_registration -k turned_limb",
+        ),
+        (
+            "candidate.quality.calibrated_score > best.quality.calibrated_score",
+            "candidate.quality.score > best.quality.score",
+            "test_alternating_registration -k refined_once_more",
+        ),
+        (
+            "by_score([candidate, *(_repaired_often(c, state) for c in registered)])[0]",
+            "by_score([candidate, *registered])[0]",
+            "test_alternating_registration -k refined_once_more",
+        ),
+        (
+            "(fine, FINE_FUNCTIONS // 2) if again else (samples.coarse, 20)",
+            "(samples.coarse, 20)",
+            "test_search -k refined_again",
         ),
         (
             "factor * (best.unregistered.score",

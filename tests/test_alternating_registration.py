@@ -591,6 +591,56 @@ def test_a_map_that_deforms_too_much_is_repaired_before_mirror_images_are_tried(
     assert search_module._repaired(found[0], flat) is found[0]
 
 
+def _ranked_state(pair, ranked):
+    config, wrong = replace(kfmaps.Config(), threads=1), np.zeros(0, dtype=bool)
+    shapes = pair.source, pair.target
+    return SearchState(*shapes, config, NO_LANDMARKS, None, wrong, pair.samples, pair.proxies, [], ranked, "preserving")
+
+
+def test_a_rival_whose_map_alone_is_better_is_refined_once_more(creature_pair, monkeypatch):
+    """A bad registration of the right map has put a turtle's front on its back; another round of refinement helped."""
+    found: Any = ranking.with_deformation_energy(
+        score_maps([Start("wrong", creature_pair.C)], creature_pair.fine), creature_pair.proxies
+    )
+    best: Any = found[0]
+    energy, away = best.deformation_energy, (best.points + len(best.points) // 2) % len(best.points)
+    less = replace(best.quality, descriptors=best.quality.descriptors - 0.01, reflection_error=0.4)
+    rival = replace(best, name="rival", points=away, quality=less, deformation_energy=2.5 * energy)
+    state = _ranked_state(creature_pair, [best, rival])
+    assert best.score - rival.score > 4
+    refined = []
+
+    def again(found, samples, functions, again):
+        assert samples is creature_pair.samples
+        assert functions == len(creature_pair.source.basis.eigenvalues)
+        refined.append((found[0].name, again))
+        return [replace(rival, name=name, quality=replace(less, heat=heat)) for name, heat in (("b", 0.5), ("a", 0.1))]
+
+    energies = {"a": energy, "b": energy, "c": energy / 3}
+    monkeypatch.setattr(search_module, "refine_fine", again)
+    monkeypatch.setattr(
+        search_module,
+        "with_deformation_energy",
+        lambda some, _proxies: [replace(c, deformation_energy=energies[c.name]) for c in some],
+    )
+    repaired = []
+    monkeypatch.setattr(search_module, "_repaired", lambda one, _state: repaired.append(one.name) or one)
+    assert [c.name for c in search_module._repair_rivals(state).ranked] == ["wrong", "a"]
+    assert refined == [("rival", True)]
+    assert repaired == ["a"], "the best of what refinement has led to"
+    mended = replace(rival, name="c", quality=replace(less, reflection_error=0.0), deformation_energy=energy / 3)
+    monkeypatch.setattr(search_module, "_repaired", lambda _one, _state: mended)
+    assert [c.name for c in search_module._repair_rivals(state).ranked] == ["c", "wrong"]
+    energies["a"] = energies["b"] = 9 * energy
+    monkeypatch.setattr(search_module, "_repaired", lambda one, _state: one)
+    assert search_module._repair_rivals(state) is state, "it stays as it is where that is better"
+    usual = replace(rival, quality=replace(best.quality, reflection_error=0.4, heat=best.quality.heat + 0.5))
+    unchanged = replace(state, ranked=[best, usual])
+    refined.clear()
+    assert search_module._repair_rivals(unchanged) is unchanged
+    assert not refined
+
+
 def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair, monkeypatch):
     """It is ranked again with its new score; a rival that is worse in more than its deformation stays as it is."""
     found: Any = ranking.with_deformation_energy(
@@ -606,19 +656,7 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     assert is_close_but_deformed(worse, best, SCORE.rotation_margin)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=1.5 * energy), best)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=None), best)
-    state = SearchState(
-        creature_pair.source,
-        creature_pair.target,
-        replace(kfmaps.Config(), threads=1),
-        NO_LANDMARKS,
-        None,
-        np.zeros(0, dtype=bool),
-        creature_pair.samples,
-        creature_pair.proxies,
-        [],
-        [best, deformed],
-        "preserving",
-    )
+    state = _ranked_state(creature_pair, [best, deformed])
     asked, repair_rivals = [], search_module._repair_rivals
     monkeypatch.setattr(search_module, "rerank_close", lambda order, _proxies: asked.append(order) or order)
     monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: mended)

@@ -124,21 +124,25 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int) -> list
     ]
 
 
-def refine_fine(chosen: list[Candidate], samples: TwoLevelSamples, functions: int) -> list[Candidate]:
+def refine_fine(
+    chosen: list[Candidate], samples: TwoLevelSamples, functions: int, again: bool = False
+) -> list[Candidate]:
     """Refine coarse maps on the fine samples, up to :data:`FINE_FUNCTIONS` functions in steps of 5.
 
-    All are refined with descriptors, and those that were refined without them once more without.
+    All are refined with descriptors, and those that were refined without them once more without. ``again``: they have
+    been refined on the fine samples before, and begin with half as many functions.
     """
-    coarse, fine = samples.coarse, samples.fine
+    fine = samples.fine
+    known, first = (fine, FINE_FUNCTIONS // 2) if again else (samples.coarse, 20)  # from fewer right maps are lost
     guided, bare = distinct_weights(FINE_WEIGHTS, fine), COARSE_WEIGHTS[0]
     stop = min(FINE_FUNCTIONS, functions)
     refined: list[Candidate] = []
     for weights in dict.fromkeys((bare, *guided)):
         members = [c for c in chosen if weights in guided or not c.uses_descriptors]
         if members:
-            size = min(20, stop, *members[0].functional_map.shape)  # from fewer functions right maps are lost
+            size = min(first, stop, *members[0].functional_map.shape)
             uses = bool(weights[0]) or fine.descriptor_cost is None
-            matches = [match_of_map(c.points, coarse.source, coarse.target) if weights[2:] else None for c in members]
+            matches = [match_of_map(c.points, known.source, known.target) if weights[2:] else None for c in members]
             starts = [
                 Start(c.name, c.functional_map, uses, weights, match=match, fit=c.fit)
                 for c, match in zip(members, matches, strict=True)

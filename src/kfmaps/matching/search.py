@@ -42,6 +42,7 @@ from kfmaps.matching.candidates import (
     derived_seed,
     distinct_maps,
     map_distance,
+    refine_fine,
     score_maps,
 )
 from kfmaps.matching.features import user_descriptors
@@ -73,6 +74,7 @@ from kfmaps.matching.sample_pair import drop_landmarks, two_level_samples
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
+    by_score,
     deforms_too_much,
     is_close_but_deformed,
     max_landmark_error,
@@ -343,14 +345,26 @@ def _repair_rivals(state: SearchState) -> SearchState:
     """
     (best, *rest), proxies = state.ranked, state.proxies
     near = N_REGISTERED - 1
-    factor = state.samples.fine.margin_factor
-    repaired = [_repaired_often(c, state) if is_close_but_deformed(c, best, factor) else c for c in rest[:near]]
+    repaired = [_repaired_rival(c, best, state) for c in rest[:near]]
     if all(a is b for a, b in zip(repaired, rest, strict=False)):
         return state
     order = by_preference([best, *repaired, *rest[near:]])
     if order[0].score - order[1].score < SCORE.shot_margin:
         order = rerank_close(order, proxies)
     return replace(state, ranked=distinct_maps(order, state.samples.fine.source, SCORE.distinct_distance))
+
+
+def _repaired_rival(candidate: Candidate, best: Candidate, state: SearchState) -> Candidate:
+    """Return a rival repaired, where only its registration puts it behind the best."""
+    if candidate.quality.calibrated_score > best.quality.calibrated_score:
+        # The map alone is the better one: it is refined once more, since its registration may have begun badly.
+        functions = min(len(shape.basis.eigenvalues) for shape in (state.source, state.target))
+        again = refine_fine([candidate], state.samples, functions, again=True)
+        registered = by_score(with_deformation_energy(again, state.proxies))[:1]
+        return by_score([candidate, *(_repaired_often(c, state) for c in registered)])[0]
+    if is_close_but_deformed(candidate, best, state.samples.fine.margin_factor):
+        return _repaired_often(candidate, state)
+    return candidate
 
 
 def _result(state: SearchState, retries: tuple[Candidate | SwappedRepair, ...]) -> SearchResult:
