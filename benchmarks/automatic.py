@@ -165,12 +165,17 @@ def chosen_jobs(options: argparse.Namespace, seed: int = 0) -> list[Job]:
 
 
 def piece(job: Job, mesh: kfmaps.Mesh, true: np.ndarray) -> tuple[kfmaps.Mesh, np.ndarray, np.ndarray]:
-    """The largest piece of a target above a random plane, which of its ``true`` vertices it has, and their numbers."""
+    """The largest piece of a target above a random plane, which of its ``true`` vertices it has, and their numbers.
+
+    Landmarks of few vertices may all lie below; then another plane is drawn.
+    """
     rng = np.random.default_rng(zlib.crc32(str(job).encode()))
-    height = mesh.vertices @ rng.normal(size=3)
-    part, kept = datasets.largest_piece(mesh, height > np.quantile(height, rng.uniform(0.3, 0.65)))
-    number = renumbering(kept, len(mesh.vertices))[true]
-    return part, number >= 0, number[number >= 0]
+    while True:
+        height = mesh.vertices @ rng.normal(size=3)
+        part, kept = datasets.largest_piece(mesh, height > np.quantile(height, rng.uniform(0.3, 0.65)))
+        number = renumbering(kept, len(mesh.vertices))[true]
+        if (number >= 0).any():
+            return part, number >= 0, number[number >= 0]
 
 
 def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], count: int, wrong: float) -> np.ndarray:
