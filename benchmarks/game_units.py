@@ -68,9 +68,14 @@ def read_units(data: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     return found
 
 
-def far_poses(poses: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """The two poses (n, 3) that are farthest from each other, moved and turned to each other."""
+def far_poses(poses: np.ndarray, faces: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """The two poses (n, 3) that are farthest from each other, moved and turned to each other.
+
+    Where a unit breaks, pieces may shrink to nothing: poses with half or twice the usual area are left out.
+    """
     some = rng.choice(len(poses), min(len(poses), MOST_POSES), replace=False)
+    areas = np.array([surface_area(Mesh(pose, faces)) for pose in poses[some]])
+    some = some[np.abs(np.log(areas / np.median(areas))) < np.log(2)]
     centred = poses[some] - poses[some].mean(axis=1, keepdims=True)
     far = {
         (i, j): np.linalg.norm(Rotation.align_vectors(centred[i], centred[j])[0].apply(centred[j]) - centred[i])
@@ -129,7 +134,7 @@ def main() -> None:
     rows = []
     for name in names:
         rng, (poses, faces) = np.random.default_rng([*name.encode()]), units[name]
-        pair = far_poses(poses, rng)
+        pair = far_poses(poses, faces, rng)
         turn = Rotation.random(rng=rng).as_matrix()
         if arguments.whole:
             order = rng.permutation(len(pair[1]))
