@@ -907,6 +907,16 @@ MUTANTS = tuple(
             "test_alternating_registration -k turned_limb",
         ),
         (
+            "count, refinement = 2 * least // 3, config.refinement",
+            "count, refinement = least // 3, config.refinement",
+            "test_subdivision -k fewer",
+        ),
+        (
+            "len(np.unique(places, axis=0)) for places in used",
+            "len(places) for places in used",
+            "test_subdivision -k fewer",
+        ),
+        (
             "candidate.quality.calibrated_score > best.quality.calibrated_score",
             "candidate.quality.score > best.quality.score",
             "test_alternating_registration -k refined_once_more",

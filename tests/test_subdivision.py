@@ -8,13 +8,15 @@ import pytest
 from scipy.spatial import KDTree
 
 import kfmaps
+from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import Config
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.clean import clean_mesh, divide_mesh, face_outward
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.geometry.subdivision import interpolating_subdivision, loop_matrix
 from kfmaps.matching.match import match
 from kfmaps.matching.search import scoring_samples
-from kfmaps.shape import MIN_SEARCH_VERTICES, prepare
+from kfmaps.shape import MIN_SEARCH_VERTICES, lower_to_size, prepare
 
 GUARDS = ("kfmaps.geometry.subdivision", "kfmaps.geometry.clean", "kfmaps.matching.reindexing")
 
@@ -84,19 +86,23 @@ def test_a_divided_mesh_knows_where_its_faces_come_from(inward: bool) -> None:
     np.testing.assert_allclose(weights[on_face], positions.max(axis=1)[on_face])
 
 
-@pytest.fixture(scope="module")
-def coarse() -> tuple[Mesh, Mesh, np.ndarray]:
-    """One body in two poses with 152 vertices each, meshed independently, and the true map."""
+def simplified_pair(n_faces: int) -> tuple[Mesh, Mesh, np.ndarray]:
     pair = kfmaps.datasets.two_poses(1500)
 
     def simplified(mesh: Mesh) -> Mesh:
-        vertices, faces = map(np.asarray, igl.decimate(mesh.vertices, mesh.faces, 300)[:2])
+        vertices, faces = map(np.asarray, igl.decimate(mesh.vertices, mesh.faces, n_faces)[:2])
         return Mesh(vertices, faces.astype(np.int64))
 
     source, target = simplified(pair.source), simplified(pair.target)
     nearest = KDTree(pair.target.vertices).query(target.vertices)[1]
     truth = KDTree(source.vertices).query(pair.source.vertices[pair.truth[nearest]])[1]
     return source, target, np.asarray(truth)
+
+
+@pytest.fixture(scope="module")
+def coarse() -> tuple[Mesh, Mesh, np.ndarray]:
+    """One body in two poses with 152 vertices each, meshed independently, and the true map."""
+    return simplified_pair(300)
 
 
 def test_meshes_of_few_vertices_are_matched_as_finer_ones(coarse) -> None:
@@ -141,3 +147,49 @@ def test_only_a_search_divides_meshes_and_only_small_surfaces(coarse) -> None:
     assert fitted._reindexing.is_identity
     large = prepare(kfmaps.datasets.torus(1200))
     assert large.divided[0] is large
+
+
+def test_meshes_of_fewer_vertices_than_functions_are_matched_with_fewer_functions() -> None:
+    source, target, truth = simplified_pair(170)
+    config = replace(Config(), threads=1)
+    with pytest.warns(
+        KfmapsWarning, match=f"a mesh has {len(target.vertices)} vertices: the map has 58 eigenfunctions"
+    ):
+        found = kfmaps.match(source, target, config)
+    assert 100 * kfmaps.geodesic_errors(source, found.target_to_source, truth).mean() < 8
+    assert found.functional_map.shape == (58, 58)
+    assert found.config.n_eigenfunctions == 58
+    assert np.isfinite(list(found.energies().values())).all()
+
+
+def test_fewer_functions_are_used_only_where_a_search_divides_a_mesh() -> None:
+    def torus(n: int) -> Mesh:
+        return kfmaps.datasets.torus(n)
+
+    config, large = Config(), torus(1200)
+    assert config.n_eigenfunctions == 100
+    small = Mesh(*map(np.asarray, igl.decimate(large.vertices, large.faces, 160)[:2]))
+    tiny = Mesh(*map(np.asarray, igl.decimate(large.vertices, large.faces, 110)[:2]))
+    assert len(small.vertices) == 80
+    assert len(tiny.vertices) == 55
+    with pytest.warns(KfmapsWarning, match="a mesh has 80 vertices: the map has 53 eigenfunctions"):
+        lower = lower_to_size(config, large, small)
+    assert (lower.basis.n_eigenfunctions, lower.descriptors.n_eigenfunctions) == (53, 53)
+    refinement = lower.refinement
+    assert isinstance(refinement, ZoomOut)
+    assert (refinement.start, refinement.stop) == (50, 53)
+    seam = Mesh(np.concatenate([small.vertices, small.vertices[:40]]), small.faces)  # 120 vertices, of which 80 count
+    with pytest.warns(KfmapsWarning, match="a mesh has 80 vertices"):
+        assert lower_to_size(config, seam, large).n_eigenfunctions == 53
+    few = replace(config, basis=replace(config.basis, n_eigenfunctions=20))
+    few = replace(few, descriptors=replace(few.descriptors, n_eigenfunctions=30), refinement=None)
+    cloud = Mesh(small.vertices, np.zeros((0, 3), dtype=np.int64))
+    cases = (config, large), (config, tiny), (config, cloud), (config, prepare(large)), (few, small)
+    for one, mesh in (*cases, (replace(config, search=None), small)):
+        assert lower_to_size(one, mesh, large) is one
+    broken = Mesh(small.vertices, np.where(small.faces == 7, 900, small.faces))
+    refused = pytest.raises(InvalidInput, match="expected vertex numbers from 0 to 79, got 900")
+    with pytest.warns(KfmapsWarning, match="eigenfunctions"), refused:
+        kfmaps.match(broken, large)
+    with pytest.raises(InvalidInput, match="expected more than 100 vertices"):
+        kfmaps.match(tiny, tiny)

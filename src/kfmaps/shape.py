@@ -19,6 +19,7 @@ from kfmaps._texts import plural
 from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward, flatten_spikes, smooth_noise
 from kfmaps.geometry.cloud_surface import surface_of_cloud
@@ -35,6 +36,8 @@ MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
 MIN_SEARCH_VERTICES = 1_000
 """Number of vertices below which the faces of a surface are divided for a search."""
+_MIN_DIVIDED_VERTICES = 60
+"""Least number of vertices of a surface that is divided, with fewer eigenfunctions if it must be."""
 _Repairs = tuple[tuple[Callable[[Mesh], Mesh | None], str], ...]
 _REPAIRS: _Repairs = (
     (without_floor, "the floor is left out"),
@@ -349,6 +352,29 @@ def _check_size(mesh: Mesh, name: str, config: Config) -> None:
         expected = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
         remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
         raise refuse(name, expected, str(len(mesh.vertices)), remedy)
+
+
+def lower_to_size(config: Config, source: Mesh | Shape, target: Mesh | Shape) -> Config:
+    """Return the configuration of a match, with fewer eigenfunctions where a small surface has too few vertices.
+
+    A search divides such a surface and has enough vertices then, but needs as many functions of both. A warning says
+    so. A refinement of the user's own stays as it is.
+    """
+    surfaces = [one for one in (source, target) if isinstance(one, Mesh) and len(one.faces)]
+    small = [mesh for mesh in surfaces if 0 < len(mesh.vertices) < MIN_SEARCH_VERTICES]
+    # Vertices that no face uses, and all but one in a place, do not count. What is not valid is refused elsewhere.
+    used = [np.take(mesh.vertices, mesh.faces.ravel(), axis=0, mode="clip") for mesh in small]
+    least = min((len(np.unique(places, axis=0)) for places in used), default=0)
+    if config.search is None or not _MIN_DIVIDED_VERTICES <= least <= config.n_eigenfunctions:
+        return config
+    count, refinement = 2 * least // 3, config.refinement
+    if isinstance(refinement, ZoomOut):
+        refinement = replace(refinement, start=min(refinement.start, count), stop=min(refinement.stop, count))
+    basis, descriptors = (
+        replace(one, n_eigenfunctions=min(one.n_eigenfunctions, count)) for one in (config.basis, config.descriptors)
+    )
+    warnings.warn(f"a mesh has {least} vertices: the map has {count} eigenfunctions", KfmapsWarning, stacklevel=3)
+    return replace(config, basis=basis, descriptors=descriptors, refinement=refinement)
 
 
 def check_prepared(shape: Shape, config: Config) -> None:

@@ -51,7 +51,7 @@ from kfmaps.matching.score import SCORE, lower_probability
 from kfmaps.matching.search import retry, search_map
 from kfmaps.matching.search_result import SearchResult
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
-from kfmaps.shape import Shape, prepare_both
+from kfmaps.shape import Shape, lower_to_size, prepare_both
 
 _FIT_AS_WHOLES = "taken for whole: as wholes they fit better than as parts"
 
@@ -73,7 +73,7 @@ def match(
     :func:`kfmaps.matching.search.scoring_samples` with the same ``rng``. They save an eighth of the time where a shape
     is matched many times, and change nothing.
     """
-    config = config or Config()
+    config = lower_to_size(config or Config(), source, target)
     prepared = prepare_both(source, target, config, progress=progress)
     with limit_threads(config.threads):
         pair = reindexing(prepared[0], prepared[1], divided=config.search is not None)

@@ -29,7 +29,7 @@ from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.match import match as find_map
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.settings import SettingsOptions, with_settings
-from kfmaps.shape import prepare_both
+from kfmaps.shape import lower_to_size, prepare_both
 
 _SIDES = ("source", "target")
 
@@ -92,6 +92,7 @@ def match(
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet or json) as stages:
         names = (str(source), str(target))
+        config = lower_to_size(config, *meshes)
         shapes = prepare_both(*meshes, config, names, _with_short_names(stages, names))
         for side, shape in zip(_SIDES, shapes, strict=True):
             seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
