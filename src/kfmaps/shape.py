@@ -350,7 +350,8 @@ def _check_size(mesh: Mesh, name: str, config: Config) -> None:
     """Refuse a mesh that has too few vertices for as many eigenfunctions as ``config`` needs."""
     if len(mesh.vertices) <= config.n_eigenfunctions:
         expected = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
-        remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
+        settings = "basis.n_eigenfunctions, descriptors.n_eigenfunctions, refinement.start and refinement.stop"
+        remedy = f"set {settings} below that, or refine the mesh"
         raise refuse(name, expected, str(len(mesh.vertices)), remedy)
 
 
