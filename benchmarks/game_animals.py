@@ -189,15 +189,30 @@ def meshed(
         matrix, faces = loop_matrix(faces, len(values))
         values = matrix @ values
     pose, standing = values[:, :3], values[:, 3:]
-    directed = half_edges(animal.faces)
-    is_oriented = len(np.unique(directed, axis=0)) == len(directed)
-    if is_oriented and np.all(igl.is_vertex_manifold(animal.faces)) and not coarse:
-        own, triangles = map(np.asarray, igl.decimate(pose, faces, n_faces)[:2])
-    else:  # on others igl.decimate fails or never ends
-        order = rng.permutation(len(pose))
-        own, triangles = pose[order], np.argsort(order)[faces]
-    turned = own @ Rotation.random(rng=rng).as_matrix().T * np.exp(rng.normal(0, 0.5))
-    return Mesh(turned, triangles.astype(np.int64)), own, pose, standing
+    own = meshed_anew(Mesh(pose, faces), n_faces, is_oriented_manifold(animal.faces) and not coarse, rng)
+    turned = own.vertices @ Rotation.random(rng=rng).as_matrix().T * np.exp(rng.normal(0, 0.5))
+    return Mesh(turned, own.faces), own.vertices, pose, standing
+
+
+def is_oriented_manifold(faces: np.ndarray) -> bool:
+    """Whether ``igl.decimate`` can simplify these faces: on others it fails or never ends."""
+    directed = half_edges(faces)
+    return len(np.unique(directed, axis=0)) == len(directed) and bool(np.all(igl.is_vertex_manifold(faces)))
+
+
+def meshed_anew(mesh: Mesh, n_faces: int, simplified: bool, rng: np.random.Generator) -> Mesh:
+    """A mesh ``simplified`` to ``n_faces``, or with shuffled vertices."""
+    if simplified:
+        vertices, faces = map(np.asarray, igl.decimate(mesh.vertices, mesh.faces, n_faces)[:2])
+        return Mesh(vertices, faces.astype(np.int64))
+    order = rng.permutation(len(mesh.vertices))
+    return Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
+
+
+def apart(pose: np.ndarray, other: np.ndarray) -> float:
+    """How far two poses (n, 3) are from each other, moved and turned to each other."""
+    one, two = pose - pose.mean(axis=0), other - other.mean(axis=0)
+    return float(np.linalg.norm(Rotation.align_vectors(one, two)[0].apply(two) - one))
 
 
 def poses(animal: Animal, number: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
@@ -209,14 +224,7 @@ def poses(animal: Animal, number: int, rng: np.random.Generator) -> tuple[np.nda
         return animal.posed(some[rng.integers(len(some))])
 
     first = drawn()
-    centred = first - first.mean(axis=0)
-
-    def distance(pose: np.ndarray) -> float:
-        pose = pose - pose.mean(axis=0)
-        turn = Rotation.align_vectors(centred, pose)[0]
-        return float(np.linalg.norm(turn.apply(pose) - centred))
-
-    others = sorted((drawn() for _ in range(20)), key=distance)
+    others = sorted((drawn() for _ in range(20)), key=lambda pose: apart(first, pose))
     return first, others[-1 if number % 2 else len(others) // 2]
 
 

@@ -16,15 +16,22 @@ import argparse
 import struct
 from pathlib import Path
 
-import igl
 import numpy as np
 from automatic import RIGHT
-from game_animals import FACES, found_by, judged, largest_manifold_piece, print_summary
+from game_animals import (
+    FACES,
+    apart,
+    found_by,
+    is_oriented_manifold,
+    judged,
+    largest_manifold_piece,
+    meshed_anew,
+    print_summary,
+)
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 import kfmaps
-from kfmaps.geometry.connectivity import half_edges
 from kfmaps.geometry.mesh import Mesh, surface_area, vertex_areas
 from kfmaps.geometry.subdivision import loop_matrix
 
@@ -76,14 +83,9 @@ def far_poses(poses: np.ndarray, faces: np.ndarray, rng: np.random.Generator) ->
     some = rng.choice(len(poses), min(len(poses), MOST_POSES), replace=False)
     areas = np.array([surface_area(Mesh(pose, faces)) for pose in poses[some]])
     some = some[np.abs(np.log(areas / np.median(areas))) < np.log(2)]
-    centred = poses[some] - poses[some].mean(axis=1, keepdims=True)
-    far = {
-        (i, j): np.linalg.norm(Rotation.align_vectors(centred[i], centred[j])[0].apply(centred[j]) - centred[i])
-        for j in range(len(some))
-        for i in range(j)
-    }
+    far = {(i, j): apart(poses[i], poses[j]) for j in some for i in some if i < j}
     i, j = max(far, key=lambda pair: far[pair])
-    return poses[some[i]], poses[some[j]]
+    return poses[i], poses[j]
 
 
 def smooth_meshes(poses: tuple[np.ndarray, np.ndarray], faces: np.ndarray) -> tuple[Mesh, Mesh, np.ndarray] | None:
@@ -95,15 +97,11 @@ def smooth_meshes(poses: tuple[np.ndarray, np.ndarray], faces: np.ndarray) -> tu
     while len(faces) < FACES:
         matrix, faces = loop_matrix(faces, len(values))
         values = matrix @ values
-    directed = half_edges(faces)
-    is_manifold = len(np.unique(directed, axis=0)) == len(directed) and np.all(igl.is_vertex_manifold(faces))
-    rng, meshes = np.random.default_rng(len(values)), []
-    for pose, n_faces in ((values[:, :3], FACES), (values[:, 3:], FACES - 1000)):
-        if is_manifold:
-            meshes.append(Mesh(*(np.asarray(part) for part in igl.decimate(pose, faces, n_faces)[:2])))
-        else:
-            order = rng.permutation(len(pose))
-            meshes.append(Mesh(pose[order], np.argsort(order)[faces]))
+    can_simplify, rng = is_oriented_manifold(faces), np.random.default_rng(len(values))
+    meshes = [
+        meshed_anew(Mesh(pose, faces), n_faces, can_simplify, rng)
+        for pose, n_faces in ((values[:, :3], FACES), (values[:, 3:], FACES - 1000))
+    ]
     rows = KDTree(values[:, 3:]).query(meshes[1].vertices)[1]
     return meshes[0], meshes[1], np.asarray(KDTree(meshes[0].vertices).query(values[rows, :3])[1])
 

@@ -610,9 +610,8 @@ def test_a_rival_whose_map_alone_is_better_is_refined_once_more(creature_pair, m
     assert best.score - rival.score > 4
     refined = []
 
-    def again(found, samples, functions, again):
+    def again(found, samples, again):
         assert samples is creature_pair.samples
-        assert functions == len(creature_pair.source.basis.eigenvalues)
         refined.append((found[0].name, again))
         return [replace(rival, name=name, quality=replace(less, heat=heat)) for name, heat in (("b", 0.5), ("a", 0.1))]
 

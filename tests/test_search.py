@@ -135,23 +135,25 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     less = drop_landmarks(on, np.array([False, False, True])).fine
     assert drop_landmarks(on, np.ones(3, dtype=bool)).coarse.landmark_cost is None
     assert rerefine([one], less)[0].landmark_errors.shape == (2,)
-    assert len(refine_fine([one], TwoLevelSamples(less, less), 90)[0].landmark_errors) == 2
+    assert len(refine_fine([one], TwoLevelSamples(less, less))[0].landmark_errors) == 2
 
 
 def test_a_map_refined_again_begins_with_half_of_its_functions(shape, monkeypatch):
     """Its points are among the fine samples, those of coarse maps among the coarse ones."""
     side = sample_for_scoring(shape, 300)
     samples: Any = two_level_samples(shape, shape, (side, side))
+    functions = min(80, len(shape.basis.eigenvalues))
+    assert functions > 50
     one, begun, known = score_maps([Start("", np.eye(50))], samples.fine)[0], [], []
     monkeypatch.setattr(candidates, "match_of_map", lambda _points, a, b: known.append((a, b)))
     monkeypatch.setattr(candidates, "refine_batch", lambda _starts, pair, sizes: begun.append((pair, sizes)) or [])
-    refine_fine([one], samples, 60, again=True)
-    assert {sizes for _, sizes in begun} == {(*range(40, 60, 5), 60)}
+    refine_fine([one], samples, again=True)
+    assert {sizes for _, sizes in begun} == {(*range(40, functions, 5), functions)}
     assert all(pair is samples.fine for pair, _ in begun)
     assert all(a is samples.fine.source and b is samples.fine.target for a, b in known)
     begun.clear(), known.clear()
-    refine_fine([one], samples, 60)
-    assert {sizes for _, sizes in begun} == {(*range(20, 60, 5), 60)}
+    refine_fine([one], samples)
+    assert {sizes for _, sizes in begun} == {(*range(20, functions, 5), functions)}
     assert all(a is samples.coarse.source and b is samples.coarse.target for a, b in known)
     assert known
 

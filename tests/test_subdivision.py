@@ -163,10 +163,7 @@ def test_meshes_of_fewer_vertices_than_functions_are_matched_with_fewer_function
 
 
 def test_fewer_functions_are_used_only_where_a_search_divides_a_mesh() -> None:
-    def torus(n: int) -> Mesh:
-        return kfmaps.datasets.torus(n)
-
-    config, large = Config(), torus(1200)
+    config, large = Config(), kfmaps.datasets.torus(1200)
     assert config.n_eigenfunctions == 100
     small = Mesh(*map(np.asarray, igl.decimate(large.vertices, large.faces, 160)[:2]))
     tiny = Mesh(*map(np.asarray, igl.decimate(large.vertices, large.faces, 110)[:2]))

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -19,7 +19,6 @@ from kfmaps._texts import plural
 from kfmaps._threads import limit_threads, n_threads, one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
-from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward, flatten_spikes, smooth_noise
 from kfmaps.geometry.cloud_surface import surface_of_cloud
@@ -359,18 +358,19 @@ def lower_to_size(config: Config, source: Mesh | Shape, target: Mesh | Shape) ->
     """Return the configuration of a match, with fewer eigenfunctions where a small surface has too few vertices.
 
     A search divides such a surface and has enough vertices then, but needs as many functions of both. A warning says
-    so. A refinement of the user's own stays as it is.
+    so. A refinement without ``limited`` stays as it is.
     """
-    surfaces = [one for one in (source, target) if isinstance(one, Mesh) and len(one.faces)]
-    small = [mesh for mesh in surfaces if 0 < len(mesh.vertices) < MIN_SEARCH_VERTICES]
+    meshes = (one for one in (source, target) if isinstance(one, Mesh) and len(one.faces))
+    small = [mesh for mesh in meshes if 0 < len(mesh.vertices) < MIN_SEARCH_VERTICES]
     # Vertices that no face uses, and all but one in a place, do not count. What is not valid is refused elsewhere.
     used = [np.take(mesh.vertices, mesh.faces.ravel(), axis=0, mode="clip") for mesh in small]
     least = min((len(np.unique(places, axis=0)) for places in used), default=0)
     if config.search is None or not _MIN_DIVIDED_VERTICES <= least <= config.n_eigenfunctions:
         return config
-    count, refinement = 2 * least // 3, config.refinement
-    if isinstance(refinement, ZoomOut):
-        refinement = replace(refinement, start=min(refinement.start, count), stop=min(refinement.stop, count))
+    refinement: Any = config.refinement
+    count = 2 * least // 3
+    if hasattr(refinement, "limited"):
+        refinement = refinement.limited(count)
     basis, descriptors = (
         replace(one, n_eigenfunctions=min(one.n_eigenfunctions, count)) for one in (config.basis, config.descriptors)
     )

@@ -32,7 +32,7 @@ class Refinement(Protocol):
 
     Three attributes are used where it has them: ``n_eigenfunctions``, which both shapes need; ``descriptor_weight``,
     above 0 where it wants descriptors as the argument ``guidance``; and ``limited(n)``, which returns the same with at
-    most n eigenfunctions, for shapes that differ much.
+    most n eigenfunctions, for shapes that differ much or have few vertices.
     """
 
     def __call__(

@@ -92,7 +92,7 @@ def candidates(
     report(0.75)
     finalists = _N_CLEAR_FINALISTS if is_clear else _N_FINALISTS
     chosen = distinct_maps(by_score(maps), coarse.source, SCORE.rough_distance, finalists)
-    refined = refine_fine(chosen, samples, functions)
+    refined = refine_fine(chosen, samples)
     report(1.0)
     return refined
 
@@ -124,9 +124,7 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int) -> list
     ]
 
 
-def refine_fine(
-    chosen: list[Candidate], samples: TwoLevelSamples, functions: int, again: bool = False
-) -> list[Candidate]:
+def refine_fine(chosen: list[Candidate], samples: TwoLevelSamples, again: bool = False) -> list[Candidate]:
     """Refine coarse maps on the fine samples, up to :data:`FINE_FUNCTIONS` functions in steps of 5.
 
     All are refined with descriptors, and those that were refined without them once more without. ``again``: they have
@@ -135,7 +133,7 @@ def refine_fine(
     fine = samples.fine
     known, first = (fine, FINE_FUNCTIONS // 2) if again else (samples.coarse, 20)  # from fewer right maps are lost
     guided, bare = distinct_weights(FINE_WEIGHTS, fine), COARSE_WEIGHTS[0]
-    stop = min(FINE_FUNCTIONS, functions)
+    stop = min(FINE_FUNCTIONS, *(side.samples.basis.functions.shape[1] for side in (fine.source, fine.target)))
     refined: list[Candidate] = []
     for weights in dict.fromkeys((bare, *guided)):
         members = [c for c in chosen if weights in guided or not c.uses_descriptors]
@@ -157,7 +155,7 @@ def compose_with_symmetries(one: Candidate, samples: TwoLevelSamples) -> list[Ca
     functions = min(side.samples.basis.functions.shape[1] for side in (samples.fine.source, samples.fine.target))
     maps = refine_coarse(symmetry_inits([one], coarse, functions), coarse, functions)
     chosen = distinct_maps(by_score(maps), coarse.source, SCORE.rough_distance, _N_CLEAR_FINALISTS)
-    return refine_fine(chosen, samples, functions) if chosen else []
+    return refine_fine(chosen, samples) if chosen else []
 
 
 def rerefine(found: list[Candidate], pair: SamplePair) -> list[Candidate]:

@@ -339,7 +339,7 @@ def _repaired_often(candidate: Candidate, state: SearchState) -> Candidate:
 
 
 def _repair_rivals(state: SearchState) -> SearchState:
-    """Repair the candidates that are as good as the best except for their deformation, and rank them again.
+    """Repair the candidates that are as good as the best, or better, but for their registration; rank them again.
 
     A map that is as good except for one turned limb is a rival to the best only when that is repaired.
     """
@@ -355,11 +355,10 @@ def _repair_rivals(state: SearchState) -> SearchState:
 
 
 def _repaired_rival(candidate: Candidate, best: Candidate, state: SearchState) -> Candidate:
-    """Return a rival repaired, where only its registration puts it behind the best."""
+    """Return a rival, repaired where only its registration puts it behind the best."""
     if candidate.quality.calibrated_score > best.quality.calibrated_score:
         # The map alone is the better one: it is refined once more, since its registration may have begun badly.
-        functions = min(len(shape.basis.eigenvalues) for shape in (state.source, state.target))
-        again = refine_fine([candidate], state.samples, functions, again=True)
+        again = refine_fine([candidate], state.samples, again=True)
         registered = by_score(with_deformation_energy(again, state.proxies))[:1]
         return by_score([candidate, *(_repaired_often(c, state) for c in registered)])[0]
     if is_close_but_deformed(candidate, best, state.samples.fine.margin_factor):
