@@ -19,13 +19,13 @@ from kfmaps.evaluation import PartTruth, _true_overlap, part_accuracy
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.geodesics import geodesic_distances
-from kfmaps.geometry.mesh import Mesh, boundary_vertices, mirror_mesh, surface_area, unit_area
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, disc_area, mirror_mesh, surface_area, unit_area
 from kfmaps.io import load_map, save_map
 from kfmaps.matching import match as match_module
 from kfmaps.matching.finish import MatchTask
 from kfmaps.matching.match import match
 from kfmaps.matching.partial import place_part as place_part_module
-from kfmaps.matching.partial.detect import PartDetection, _boundary_opening, detect_part
+from kfmaps.matching.partial.detect import PartDetection, _relative_loops, detect_part
 from kfmaps.matching.partial.match_partial import describe_part, file_ratio, match_partial
 from kfmaps.matching.partial.place_part import GivenUp, PartTask, PlacedPart, place_part, same_units
 from kfmaps.matching.partial.relaxation_labeling import (
@@ -104,19 +104,21 @@ def disc(count):
     )
 
 
+def opening(mesh: Mesh) -> float:
+    return disc_area(_relative_loops(mesh))
+
+
 def test_the_opening_of_a_disc_is_another_disc(pair):
-    assert _boundary_opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
-    assert _boundary_opening(pair.source) == 0.0
-    assert _boundary_opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
-    assert _boundary_opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(
-        _boundary_opening(disc(200))
-    )
+    assert opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
+    assert opening(pair.source) == 0.0
+    assert opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
+    assert opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(opening(disc(200)))
 
 
 def test_boundaries_tell_which_is_a_part(pair):
     whole, part = pair.source, pair.target
     found = detect_part(whole, part)
-    assert (found.which, found.opening) == ("target", _boundary_opening(part))
+    assert (found.which, found.opening) == ("target", opening(part))
     for one, other, which in ((part, whole, "source"), (whole, whole, "none"), (part, part, "both")):
         assert detect_part(one, other).which == which
     assert detect_part(whole, whole).opening == 0
@@ -125,8 +127,33 @@ def test_boundaries_tell_which_is_a_part(pair):
     assert not found.both_open
     assert detect_part(part, part).both_open
     pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
-    assert 0.0 < _boundary_opening(pinhole) < SCORE.part.min_opening
+    assert 0.0 < opening(pinhole) < SCORE.part.min_opening
     assert detect_part(pair.source, pinhole).which == "none"
+
+
+def plates(*radii: float) -> Mesh:
+    """Round plates beside each other."""
+    meshes = [Mesh(radius * disc(60).vertices + [5.0 * i, 0, 0], disc(60).faces) for i, radius in enumerate(radii)]
+    faces = [mesh.faces + 61 * i for i, mesh in enumerate(meshes)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
+
+
+@pytest.mark.parametrize(
+    ("radii", "others", "same"),
+    [
+        ((1.0, 0.8, 0.6), (0.6, 1.0, 0.8), True),
+        ((1.0, 0.8, 0.6), (3.0, 2.4, 1.8), True),  # in another unit
+        ((1.0, 0.8, 0.6), (1.0, 0.78, 0.63), True),
+        ((1.0, 0.8, 0.6), (1.0, 0.7, 0.7), False),
+        ((1.0, 0.8, 0.6), (1.0, 0.8), False),
+        ((1.0, 0.8), (1.0, 0.8, 0.6), False),
+        ((1.0,), (1.0,), False),  # one loop may be as long by chance
+        ((1.0, 0.1, 0.1), (1.0, 0.1, 0.1), False),
+    ],
+)
+def test_several_loops_of_the_same_lengths_are_the_same_boundaries(radii, others, same):
+    found = detect_part(plates(*radii), plates(*others))
+    assert (found.which, found.same_loops) == ("both", same)
 
 
 def test_only_edges_of_one_face_are_a_boundary(pair):
@@ -838,6 +865,27 @@ def test_neither_a_part_nor_wholes_are_matched_where_the_answer_is_known(
     monkeypatch.setattr(match_module, "detect_part", lambda *_: detection)
     assert match_module.match(small, small, AUTO) is (whole if steps == ["whole"] else part)
     assert tried == steps
+
+
+@pytest.mark.parametrize("stated", ["auto", "none"])
+@pytest.mark.parametrize("word", ["sure", "likely", "ambiguous"])
+def test_shapes_with_the_same_boundaries_are_whole(monkeypatch, small, word, stated):
+    tried = parts_tried(monkeypatch, {})
+    whole = WholeMatch(word, 0.6)
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: whole)
+    detection = PartDetection("both", "open", 0.3, True, "target", same_loops=True)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: detection)
+    found = match_module.match(small, small, replace(AUTO, partial=replace(AUTO.partial, part=stated)))
+    assert (found, tried) == (whole, [])
+
+
+def test_parts_of_them_are_sought_where_a_match_as_wholes_is_unlikely(monkeypatch, small):
+    tried = parts_tried(monkeypatch, dict.fromkeys(("source", "target", "both"), fake_match("likely", 0.88)))
+    monkeypatch.setattr(match_module, "_match_wholes", lambda *_: fake_match("unlikely", 0.1, energy=0.2))
+    detection = PartDetection("both", "open", 0.3, True, "target", same_loops=True)
+    monkeypatch.setattr(match_module, "detect_part", lambda *_: detection)
+    assert match_module.match(small, small, AUTO).verdict == "likely"
+    assert "both" in tried
 
 
 @pytest.mark.parametrize(("opening", "expected"), [(0.04, (0.9504, "sure")), (0.12, (0.8712, "likely"))])

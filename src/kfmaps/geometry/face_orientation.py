@@ -6,7 +6,7 @@ import igl
 import numpy as np
 
 from kfmaps.geometry.connectivity import half_edges_by_edge
-from kfmaps.geometry.mesh import Mesh, boundary_loops, face_areas
+from kfmaps.geometry.mesh import Mesh, boundary_loops, disc_area, face_areas
 
 
 def doubled_faces(faces: np.ndarray) -> np.ndarray:
@@ -44,8 +44,8 @@ def inward_faces(mesh: Mesh) -> np.ndarray:
         result ^= turned_most[patch]
         faces = turn_faces(faces, result)
         boundary, _ = _boundary_and_agreement(faces, n)
-    loop, discs = boundary_loops(mesh.vertices, boundary)
-    opening = discs / areas.sum()  # area of flat discs in the boundaries, over that of the surface
+    loop, lengths = boundary_loops(mesh.vertices, boundary)
+    opening = disc_area(lengths) / areas.sum()  # area of flat discs in the boundaries, over that of the surface
     max_opening = 1.0  # above which the volume says nothing: a patch of the inside of a bend looks outward with less
     if opening > max_opening:
         return result

@@ -123,19 +123,25 @@ def boundary_vertices(mesh: Mesh) -> np.ndarray:
     return result
 
 
-def boundary_loops(vertices: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, float]:
-    """Return the loop of each boundary edge, (b,), and the total area of flat discs with the lengths of the loops.
+def boundary_loops(vertices: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the number of the loop of each boundary edge, (b,), and the length of each loop, by its number.
 
-    ``vertices (n, 3)``; ``edges (b, 2)``.
+    ``vertices (n, 3)``; ``edges (b, 2)``. Numbers that no loop has have a length of 0.
     """
     lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     loop = component_labels(len(vertices), *edges.T)[1][edges[:, 0]]
-    return loop, float((np.bincount(loop, lengths) ** 2).sum() / (4 * np.pi))
+    return loop, np.bincount(loop, lengths)
 
 
-def opening_area(mesh: Mesh) -> float:
-    """Return the total area of flat discs with the lengths of the boundary loops: the least that is missing."""
-    return boundary_loops(mesh.vertices, boundary_edges(mesh.faces, len(mesh.vertices)))[1]
+def disc_area(perimeters: np.ndarray) -> float:
+    """Return the total area of flat discs with the ``perimeters`` of boundary loops: the least that is missing."""
+    return float((perimeters**2).sum() / (4 * np.pi))
+
+
+def loop_lengths(mesh: Mesh) -> np.ndarray:
+    """Return the lengths of the boundary loops, the longest first; and zeros."""
+    lengths = boundary_loops(mesh.vertices, boundary_edges(mesh.faces, len(mesh.vertices)))[1]
+    return np.sort(lengths)[::-1]
 
 
 MIRROR = np.array([-1.0, 1.0, 1.0])

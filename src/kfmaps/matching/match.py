@@ -3,7 +3,7 @@
 1. Both shapes are prepared: cleaned, with their bases and descriptors (:mod:`kfmaps.shape`).
 2. Where one shape has much longer open boundaries than the other it may be a part of it. Then the part is placed on the
    whole (:mod:`~kfmaps.matching.partial.match_partial`). Of two shapes with open boundaries either one may be placed on
-   the other, if there is a clear place.
+   the other, if there is a clear place; where both have the same boundaries, they are matched as wholes first.
 3. Otherwise, or where that match is not sure, the shapes are matched as wholes: a search
    (:mod:`~kfmaps.matching.search`) or one fit (:mod:`~kfmaps.matching.fit`) gives a functional map, which is refined on
    all vertices and registered (:mod:`~kfmaps.matching.finish`). Where little seems to be missing and no placement of
@@ -154,7 +154,7 @@ def _match_detected(
     ``tried``: what has been stated and matched already: two parts are not matched again.
     """
     which, match_wholes = detection.which, cache(lambda: wholes(MatchPart(reason=detection.reason)))
-    if which in ("none", "both") and _has_same_cuts(match_wholes()):
+    if which in ("none", "both") and _has_same_cuts(match_wholes(), detection):
         return match_wholes()
     clear = _match_clear_part(task, detection)
     if clear is not None:
@@ -175,9 +175,9 @@ def _match_detected(
 def _lower_open(match: Match, detection: PartDetection) -> Match:
     """Return a match as wholes with a lower probability where a shape is open; any other as it is.
 
-    Nothing is known about what is missing.
+    Nothing is known about what is missing, unless both have the same boundaries.
     """
-    if match.partial.which != "none" or detection.which == "none":
+    if match.partial.which != "none" or detection.which == "none" or detection.same_loops:
         return match
     confidence, verdict = lower_probability(match.confidence, match.verdict, min(detection.opening, 1.0))
     return replace(match, confidence=confidence, verdict=verdict)
@@ -331,8 +331,13 @@ def _is_whole(match: Match, detection: PartDetection) -> bool:
     return _may_be_whole(detection) and _deforms_at_most(match, SCORE.part.max_whole_deformation)
 
 
-def _has_same_cuts(match: Match) -> bool:
-    """Return whether a match as wholes is "sure" and deforms so little that neither shape has what the other lacks."""
+def _has_same_cuts(match: Match, detection: PartDetection) -> bool:
+    """Return whether neither shape has what the other lacks, by a match as wholes.
+
+    It is "sure" and deforms little, or both shapes have the same boundaries and it is not "unlikely".
+    """
+    if detection.same_loops:
+        return match.verdict != "unlikely"
     return match.verdict == "sure" and _deforms_at_most(match, SCORE.part.max_deformation_of_equal)
 
 

@@ -146,6 +146,11 @@ class PartScoring:
     """Opening up to which a shape may be a whole one with holes, unless its match as a part is "sure"."""
     max_small_opening: float = 0.05
     """Opening up to which a shape lacks a limb at most: cuts of people and animals have 0.66 to 0.99 of the area."""
+    max_loop_change: float = 0.05
+    """Difference of the lengths of the boundary loops of two shapes, over their length, up to which both have the same
+    boundaries. Different cuts have 0.066 and more (research/parts.md)."""
+    max_loop_share: float = 0.8
+    """Share of the longest loop of these, since one loop may be equally long by chance."""
     max_whole_deformation: float = 0.3
     """Deformation energy of a match as wholes up to which a shape with openings like holes is whole: right maps of
     unlike animals have 0.2 to 0.4."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from kfmaps.geometry.clean import clean_mesh
-from kfmaps.geometry.mesh import Mesh, opening_area, surface_area
+from kfmaps.geometry.mesh import Mesh, disc_area, loop_lengths, surface_area
 from kfmaps.matching.partial.one_view import is_view_of
 from kfmaps.matching.score import SCORE
 
@@ -21,27 +23,38 @@ class PartDetection:
     both_open: bool = False  # whether something may be missing of both
     more_open: Literal["source", "target"] | None = None
     is_one_view: bool = False  # whether the part is the scan of one camera
+    same_loops: bool = False  # whether both have several boundary loops, of the same lengths
 
 
-def _boundary_opening(mesh: Mesh) -> float:
-    """Return the area of flat discs with the perimeters of the boundaries, over the area of the mesh.
+def _relative_loops(mesh: Mesh) -> np.ndarray:
+    """Return the lengths of the boundary loops in √area of the mesh, the longest first; and zeros.
 
-    It is the least area that is missing; 0 for a closed surface and for a point cloud.
+    The area of flat discs with these perimeters is the least that is missing.
     """
     mesh = clean_mesh(mesh).mesh
-    if len(mesh.faces) == 0:
-        return 0.0
-    return opening_area(mesh) / surface_area(mesh)
+    return loop_lengths(mesh) / np.sqrt(surface_area(mesh)) if len(mesh.faces) else np.zeros(0)
+
+
+def _have_same_loops(one: np.ndarray, other: np.ndarray) -> bool:
+    """Return whether two shapes have several boundary loops, of the same lengths: hardly two cuts leave such.
+
+    One loop says little: those of two heads that are cut at different places may be equally long.
+    """
+    n, numbers = min(len(one), len(other)), SCORE.part
+    change = np.abs(one[:n] - other[:n]).sum() + one[n:].sum() + other[n:].sum()
+    total = (one.sum() + other.sum()) / 2
+    return change <= numbers.max_loop_change * total and one.max(initial=0.0) <= numbers.max_loop_share * total
 
 
 def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     """Return which of two surfaces may be a part of the other."""
     if len(source.faces) == 0 or len(target.faces) == 0:
         return PartDetection("none", "point clouds are taken for whole")
-    openings: dict[Literal["source", "target"], float] = {
-        "source": _boundary_opening(source),
-        "target": _boundary_opening(target),
+    loops: dict[Literal["source", "target"], np.ndarray] = {
+        "source": _relative_loops(source),
+        "target": _relative_loops(target),
     }
+    openings = {name: disc_area(one) for name, one in loops.items()}
     part, whole = sorted(openings, key=lambda name: -openings[name])
     if openings[part] < SCORE.part.min_opening:
         return PartDetection("none", "no boundary is long enough for a cut")
@@ -51,5 +64,6 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
         meshes = (source, target) if part == "source" else (target, source)
         return PartDetection(part, reason, openings[part], both_open, part, is_view_of(*meshes))
     if both_open:
-        return PartDetection("both", "both have long open boundaries", openings[part], both_open, part)
+        same = _have_same_loops(*loops.values())
+        return PartDetection("both", "both have long open boundaries", openings[part], both_open, part, same_loops=same)
     return PartDetection("none", "both have open boundaries alike", openings[part])
