@@ -28,6 +28,7 @@ from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls, without_partitions
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
+from kfmaps.geometry.subdivision import has_long_flat_faces
 
 EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
 """Number of vertices up to which eigenfunctions are exact to rounding, and the eigensolver's tolerance above it."""
@@ -113,14 +114,16 @@ class Shape:
 
     @cached_property
     def divided(self) -> tuple[Shape, CleanedMesh]:
-        """:attr:`cleaned`; a surface of fewer than 1,000 vertices is divided until it has as many.
+        """:attr:`cleaned`; a surface of fewer than 1,000 vertices, or of long flat faces, is divided.
 
-        A search compares that many samples. See :func:`kfmaps.geometry.clean.divide_mesh`.
+        A search compares 1,000 samples. See :func:`kfmaps.geometry.clean.divide_mesh`.
         """
         shape, cleaned = self.cleaned
-        if len(shape.mesh.faces) == 0 or len(shape.mesh.vertices) >= MIN_SEARCH_VERTICES:
+        if len(shape.mesh.faces) == 0:
             return self.cleaned
         cleaned = divide_mesh(replace(cleaned, mesh=shape.mesh), MIN_SEARCH_VERTICES)
+        if cleaned.corners is None:
+            return self.cleaned
         cleaned = replace(cleaned, mesh=unit_area(cleaned.mesh))
         basis = laplace_basis(cleaned.mesh, len(self.basis.eigenvalues), self.laplacian)
         local = None if self.shot_radius is None else _local_descriptors(cleaned.mesh, basis, self.shot_radius)
@@ -197,8 +200,9 @@ def prepare(
     is_cloud, given_faces = len(mesh.faces) == 0, None
     flat, n_spikes = flatten_spikes(cleaned.mesh)
     cleaned = replace(cleaned, mesh=flat)
-    # Edges of coarse meshes are as sharp as noise.
-    smooth = smooth_noise(cleaned.mesh) if len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES else None
+    # Edges of coarse meshes and of solids are as sharp as noise.
+    may_be_noisy = len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES and not has_long_flat_faces(cleaned.mesh)
+    smooth = smooth_noise(cleaned.mesh) if may_be_noisy else None
     cleaned = replace(cleaned, mesh=smooth or cleaned.mesh)
     unit = unit_area(cleaned.mesh)
     _check_size(unit, name, config)

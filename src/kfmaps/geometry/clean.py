@@ -5,6 +5,7 @@ A :class:`CleanedMesh` has the numbers of the given vertices and of those that a
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +22,7 @@ from kfmaps.geometry.connectivity import (
 )
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
-from kfmaps.geometry.subdivision import interpolating_subdivision
+from kfmaps.geometry.subdivision import has_long_flat_faces, interpolating_subdivision, split_long_edges
 from kfmaps.geometry.weld import weld_vertices
 
 _MAX_SPECK_AREA = 0.005
@@ -35,6 +36,10 @@ _MAX_ROUGHNESS = 0.145
 """Roughness (:func:`.cloud_surface.roughness`) above which a mesh is smoothed; clean bodies have at most 0.12."""
 _STEPS_PER_VERTEX, _MAX_STEPS = 1 / 500, 100
 """Pairs of smoothing steps over the number of vertices, and the most of them."""
+
+_MAX_EDGE, _MAX_LONG_EDGE, _MAX_VERTICES = 0.05, 0.15, 6_000
+"""Longest edge in √area of a mesh whose long faces are divided, that where there would be more than so many vertices,
+and twice the given ones, and those."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,20 +160,18 @@ def _links(edges: np.ndarray, n: int) -> tuple[csr_array, np.ndarray]:
 
 
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
-    """Return a cleaned mesh whose faces are cut in four until there are ``count`` vertices; new ones come last.
+    """Return a cleaned mesh with divided faces, if it has fewer than ``count`` vertices or long flat faces.
 
-    New vertices lie on a smooth surface through the others, since two coarse meshes of one body have their edges
-    elsewhere. They have the original number of the nearest corner.
+    New vertices come last, and have the original number of the nearest corner. Long flat faces
+    (:func:`~.subdivision.has_long_flat_faces`) stay where they are. Otherwise all faces are cut in four, and new
+    vertices lie on a smooth surface through the others, since two coarse meshes of one body have their edges elsewhere.
     """
-    mesh, piece_of = part.mesh, np.arange(len(part.mesh.faces))
-    corners = np.tile(np.eye(3), (len(piece_of), 1, 1))
-    middle = 0.5 * np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]])
-    pieces = [*(np.stack([np.eye(3)[i], middle[i], middle[i - 1]]) for i in range(3)), middle]
-    while len(mesh.vertices) < count:
-        mesh = interpolating_subdivision(mesh)
-        of_pieces = np.einsum("pij,fjk->fpik", pieces, corners)
-        corners = np.concatenate([of_pieces[:, :3].reshape(-1, 3, 3), of_pieces[:, 3]])
-        piece_of = np.concatenate([np.repeat(piece_of, 3), piece_of])
+    if has_long_flat_faces(part.mesh):
+        mesh, piece_of, corners = _split_faces(part.mesh)
+    elif len(part.mesh.vertices) < count:
+        mesh, piece_of, corners = _subdivide_faces(part.mesh, count)
+    else:
+        return part
     at = np.zeros(len(mesh.vertices), dtype=np.int64)  # for each vertex a face and its corner there
     at[mesh.faces.ravel()] = np.arange(mesh.faces.size)
     nearest = part.mesh.faces[piece_of[at // 3], corners.reshape(-1, 3)[at].argmax(axis=1)]
@@ -180,6 +183,31 @@ def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
         turned=None if part.turned is None else part.turned[piece_of],
         corners=corners,
     )
+
+
+def _subdivide_faces(mesh: Mesh, count: int) -> tuple[Mesh, np.ndarray, np.ndarray]:
+    """Return the smooth surface with at least ``count`` vertices, and what :func:`.split_long_edges` does beside it."""
+    piece_of = np.arange(len(mesh.faces))
+    corners = np.tile(np.eye(3), (len(piece_of), 1, 1))
+    middle = 0.5 * np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]])
+    pieces = [*(np.stack([np.eye(3)[i], middle[i], middle[i - 1]]) for i in range(3)), middle]
+    while len(mesh.vertices) < count:
+        mesh = interpolating_subdivision(mesh)
+        of_pieces = np.einsum("pij,fjk->fpik", pieces, corners)
+        corners = np.concatenate([of_pieces[:, :3].reshape(-1, 3, 3), of_pieces[:, 3]])
+        piece_of = np.concatenate([np.repeat(piece_of, 3), piece_of])
+    return mesh, piece_of, corners
+
+
+def _split_faces(mesh: Mesh) -> tuple[Mesh, np.ndarray, np.ndarray]:
+    """Return what :func:`.split_long_edges` does, with edges so short that there are not too many vertices."""
+    longest, most = _MAX_EDGE, max(_MAX_VERTICES, 2 * len(mesh.vertices))
+    size = math.sqrt(face_areas(mesh).sum())
+    while True:
+        found = split_long_edges(mesh, longest * size)
+        if len(found[0].vertices) <= most or longest >= _MAX_LONG_EDGE:
+            return found
+        longest *= 1.2
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:

@@ -1,11 +1,27 @@
-"""Subdivision: faces cut in four, with new vertices on a smooth surface through the others."""
+"""Subdivision: faces cut in four, with new vertices on a smooth surface through the others, or cut where they lie.
+
+The faces of CAD files (STL) span flat and curved faces of a solid with as few triangles as possible: most are long and
+thin, and have no vertices inside. A mesh of these is divided without being changed.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, vstack
 
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.connectivity import half_edges_by_edge
+from kfmaps.geometry.mesh import Mesh, face_areas, face_normals, surface_area
+
+_PIECES = {
+    1: ((0, 3, 2), (3, 1, 2)),
+    2: ((3, 1, 4), (0, 3, 2), (3, 4, 2)),
+    3: ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+    4: ((3, 1, 4), (0, 3, 4), (0, 4, 2)),
+}
+"""The pieces of a face with one, two or three long edges, the first ones, and of one with two and the other diagonal.
+
+3, 4 and 5 are the middles of the edges from corner 0, 1 and 2.
+"""
 
 
 def divide_faces(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -60,3 +76,55 @@ def interpolating_subdivision(mesh: Mesh) -> Mesh:
     for _ in range(2):  # steps of a fixed-point iteration
         control = control + mesh.vertices - (matrix @ control)[:n]
     return Mesh(np.concatenate([mesh.vertices, (matrix @ control)[n:]]), faces)
+
+
+def has_long_flat_faces(mesh: Mesh) -> bool:
+    """Return whether most of a surface lies in long faces, many of them in one plane with their neighbours.
+
+    Solids of CAD files have a mean length of 0.15 to 0.6 √area and half of their edges in planes. Scans and remeshed
+    bodies have at most 0.06; artists' creatures of some hundred vertices as much, but at most 0.13 of their edges in
+    planes (research/coarse-meshes.md).
+    """
+    corners, areas = mesh.vertices[mesh.faces], face_areas(mesh)
+    lengths = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    min_length, min_flat, flat_cosine = 0.1, 0.3, np.cos(np.radians(0.5))
+    if areas @ lengths.max(axis=1) <= min_length * areas.sum() * np.sqrt(surface_area(mesh)):
+        return False
+    (one, other), normals = half_edges_by_edge(mesh.faces, len(mesh.vertices))[1], face_normals(mesh)
+    is_flat = np.einsum("ei,ei->e", normals[one // 3], normals[other // 3]) > flat_cosine
+    length = lengths.ravel()[one]
+    return bool(length @ is_flat > min_flat * length.sum())
+
+
+def split_long_edges(mesh: Mesh, longest: float) -> tuple[Mesh, np.ndarray, np.ndarray]:
+    """Return a mesh with all edges above the length ``longest`` cut at their middles, until there is none.
+
+    Returns the mesh, its vertices followed by the new ones; ``face_of (g,)``: the face that each face is a piece of;
+    ``corners (g, 3, 3)``: barycentric coordinates of its corners there.
+    """
+    vertices, faces, face_of = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
+    corners = np.tile(np.eye(3), (len(faces), 1, 1))
+    while True:
+        n, following = len(vertices), np.roll(faces, -1, axis=1)
+        is_long = np.linalg.norm(vertices[faces] - vertices[following], axis=2) > longest
+        if not is_long.any():
+            return Mesh(vertices, faces), face_of, corners
+        keys = np.minimum(faces, following) * n + np.maximum(faces, following)
+        cut = np.unique(keys[is_long])
+        vertices = np.concatenate([vertices, (vertices[cut // n] + vertices[cut % n]) / 2])
+        count = is_long.sum(axis=1)
+        # The first edge becomes the long one of one, or the first of two.
+        first = np.where(count == 1, is_long.argmax(axis=1), (np.argmin(is_long, axis=1) + 1) % 3)
+        turn = (first[:, None] + np.arange(3)) % 3
+        six = np.concatenate([faces, n + np.searchsorted(cut, keys)], axis=1)  # corners, then middles of edges
+        six = np.take_along_axis(six, np.hstack([turn, 3 + turn]), axis=1)
+        where = np.take_along_axis(corners, turn[:, :, None], axis=1)
+        where = np.concatenate([where, (where + np.roll(where, -1, axis=1)) / 2], axis=1)
+        two = np.flatnonzero(count == 2)
+        a, c, middle, last = (vertices[six[two, i]] for i in (0, 2, 3, 4))
+        count[two[np.linalg.norm(a - last, axis=1) < np.linalg.norm(c - middle, axis=1)]] = 4
+        made = [(faces[count == 0], face_of[count == 0], corners[count == 0])]
+        for kind, pieces in _PIECES.items():
+            rows = np.flatnonzero(count == kind)
+            made += [(six[rows][:, piece], face_of[rows], where[rows][:, piece]) for piece in map(list, pieces)]
+        faces, face_of, corners = (np.concatenate(some) for some in zip(*made, strict=True))
