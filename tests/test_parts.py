@@ -156,6 +156,20 @@ def test_several_loops_of_the_same_lengths_are_the_same_boundaries(radii, others
     assert (found.which, found.same_loops) == ("both", same)
 
 
+def test_a_loop_more_counts_where_all_vertices_are_on_boundaries():
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    shapes = [
+        Mesh(
+            np.concatenate([size * corners + [3.0 * i, 0, 0] for i, size in enumerate(sizes)]),
+            np.arange(3 * len(sizes)).reshape(-1, 3),
+        )
+        for sizes in ((1.0, 1.0), (1.0, 1.0, 0.1))
+    ]
+    assert detect_part(shapes[0], shapes[0]).same_loops
+    assert not detect_part(*shapes).same_loops
+    assert not detect_part(*shapes[::-1]).same_loops
+
+
 def test_only_edges_of_one_face_are_a_boundary(pair):
     assert not boundary_vertices(pair.source).any()
     rim = boundary_vertices(disc(30))

@@ -12,8 +12,15 @@ from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import Config
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.clean import clean_mesh, divide_mesh, face_outward
-from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.geometry.subdivision import interpolating_subdivision, loop_matrix
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.geometry.subdivision import (
+    flat_area_fraction,
+    has_long_faces,
+    interpolating_subdivision,
+    loop_matrix,
+    split_long_edges,
+)
+from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import MIN_SEARCH_VERTICES, lower_to_size, prepare
@@ -84,6 +91,90 @@ def test_a_divided_mesh_knows_where_its_faces_come_from(inward: bool) -> None:
     weights = np.where(own == numbers[:, None], positions, 0).max(axis=1)
     on_face = (own == numbers[:, None]).any(axis=1)
     np.testing.assert_allclose(weights[on_face], positions.max(axis=1)[on_face])
+
+
+def prism(n: int, turn: float = 0.0) -> Mesh:
+    """A solid as CAD programs triangulate it: a plate with a round corner of ``n`` edges and two others cut off."""
+    angles = np.linspace(0.0, np.pi / 2, n + 1)
+    corner = np.stack([2.0 + np.cos(angles), 1.0 + np.sin(angles)], axis=1)
+    outline = np.concatenate([[[0.0, 0.4], [0.5, 0.0], [3.0, 0.0]], corner, [[0.0, 2.0]]])
+    n = len(outline)
+    each, fan = np.arange(n), np.arange(1, n - 1)
+    following = (each + 1) % n
+    bottom = np.stack([0 * fan, fan + 1, fan], axis=1)
+    sides = [np.stack([each, following, n + following], axis=1), np.stack([each, n + following, n + each], axis=1)]
+    vertices = np.concatenate([np.pad(outline, ((0, 0), (0, 1)), constant_values=z) for z in (0.0, 0.5)])
+    rotation = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+    return Mesh(vertices @ rotation, np.concatenate([bottom, n + bottom[:, ::-1], *sides]))
+
+
+def test_long_edges_are_cut_until_there_is_none() -> None:
+    solid = prism(12)
+    divided, face_of, corners = split_long_edges(solid, 0.3)
+    edges = divided.vertices[divided.faces] - divided.vertices[np.roll(divided.faces, 1, axis=1)]
+    assert 0.25 < np.linalg.norm(edges, axis=2).max() <= 0.3
+    np.testing.assert_array_equal(divided.vertices[: len(solid.vertices)], solid.vertices)
+    there = np.einsum("fij,fjk->fik", corners, solid.vertices[solid.faces[face_of]])
+    np.testing.assert_allclose(divided.vertices[divided.faces], there, atol=1e-12)
+    assert surface_area(divided) == pytest.approx(surface_area(solid), rel=1e-12)
+    counts = topology(divided)
+    assert (counts.boundary_edges, counts.inconsistent_edges, counts.degenerate_faces) == (0, 0, 0)
+    assert (counts.components, counts.euler_characteristic) == (1, 2)
+    # Of a face with two long edges what is left is cut along the shorter diagonal.
+    for x, diagonal in ((0.0, {0, 4}), (1.0, {2, 3})):
+        one = Mesh(np.array([[0.0, 0, 0], [x, 2, 0], [1.0, 0, 0]]), np.array([[0, 1, 2]]))
+        faces = split_long_edges(one, 1.9)[0].faces
+        assert len(faces) == 3
+        assert sum(diagonal <= set(face) for face in faces.tolist()) == 2
+    # One long edge, whichever it is, and three.
+    for turn in range(3):
+        one = Mesh(np.array([[0.0, 0, 0], [2, 0, 0], [1, 0.5, 0]]), np.roll([[0, 1, 2]], turn))
+        assert [set(face) for face in split_long_edges(one, 1.9)[0].faces.tolist()] == [{0, 3, 2}, {3, 1, 2}]
+    assert len(split_long_edges(one, 1.05)[0].faces) == 4
+
+
+def test_solids_are_told_from_creatures_and_remeshed_bodies() -> None:
+    for mesh, is_long, flat in (
+        (prism(12), True, (0.99, 1.0)),
+        (kfmaps.datasets.sphere(120), True, (0.0, 0.1)),
+        (kfmaps.datasets.torus(1200), False, (0.0, 0.1)),
+    ):
+        assert has_long_faces(mesh) == has_long_faces(Mesh(7 * mesh.vertices, mesh.faces)) == is_long
+        assert flat[0] <= flat_area_fraction(mesh) <= flat[1]
+
+
+def test_long_faces_of_solids_stay_where_they_are() -> None:
+    # Few vertices or many; edges are longer where there would be more than 6,000, up to 0.18.
+    for n, longest, counts in ((12, 0.05, (2000, 2500)), (200, 0.15, (5000, 6000)), (500, 0.18, (6000, 12_000))):
+        part = clean_mesh(unit_area(prism(n)))
+        divided = divide_mesh(part, 1000)
+        assert divided.corners is not None
+        assert counts[0] <= len(divided.mesh.vertices) <= counts[1]
+        assert surface_area(divided.mesh) == pytest.approx(1.0)
+        corners = divided.mesh.vertices[divided.mesh.faces]
+        assert np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max() <= longest
+    assert len(part.mesh.vertices) > 1000
+    sphere = clean_mesh(unit_area(kfmaps.datasets.sphere(120)))
+    assert surface_area(divide_mesh(sphere, 1000).mesh) > 1.02  # bulges
+    assert surface_area(divide_mesh(sphere, 100).mesh) == pytest.approx(1.0)
+    fine = clean_mesh(kfmaps.datasets.torus(1200))
+    assert divide_mesh(fine, 1000) is fine
+
+
+def test_triangulations_of_a_solid_are_matched() -> None:
+    source, target = prism(50), prism(64, turn=2.0)
+    found = kfmaps.match(source, target, replace(Config(), threads=1))
+    assert found.verdict == "sure"
+    true = igl.point_mesh_squared_distance(prism(64).vertices, source.vertices, source.faces)[2]
+    places = found.precise()
+    points = np.einsum("ni,nij->nj", places.weights, source.vertices[source.faces[places.faces]])
+    away = np.linalg.norm(points - true, axis=1) / np.sqrt(surface_area(source))
+    assert 100 * away.mean() < 2.0
+
+
+def test_solids_are_not_taken_for_noisy(recwarn) -> None:
+    prepare(prism(700))
+    assert not [one for one in recwarn if "noise" in str(one.message)]
 
 
 def simplified_pair(n_faces: int) -> tuple[Mesh, Mesh, np.ndarray]:

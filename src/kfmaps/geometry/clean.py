@@ -22,7 +22,12 @@ from kfmaps.geometry.connectivity import (
 )
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
-from kfmaps.geometry.subdivision import has_long_flat_faces, interpolating_subdivision, split_long_edges
+from kfmaps.geometry.subdivision import (
+    flat_area_fraction,
+    has_long_faces,
+    interpolating_subdivision,
+    split_long_edges,
+)
 from kfmaps.geometry.weld import weld_vertices
 
 _MAX_SPECK_AREA = 0.005
@@ -37,9 +42,9 @@ _MAX_ROUGHNESS = 0.145
 _STEPS_PER_VERTEX, _MAX_STEPS = 1 / 500, 100
 """Pairs of smoothing steps over the number of vertices, and the most of them."""
 
-_MAX_EDGE, _MAX_LONG_EDGE, _MAX_VERTICES = 0.05, 0.15, 6_000
-"""Longest edge in √area of a mesh whose long faces are divided, that where there would be more than so many vertices,
-and twice the given ones, and those."""
+_LONGEST_EDGES, _MAX_VERTICES = 0.05 * 1.2 ** np.arange(8), 6_000
+"""Longest edges in √area of a mesh whose long faces are divided: the first with which it has at most so many vertices,
+or twice the given ones, else the last."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,15 +165,16 @@ def _links(edges: np.ndarray, n: int) -> tuple[csr_array, np.ndarray]:
 
 
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
-    """Return a cleaned mesh with divided faces, if it has fewer than ``count`` vertices or long flat faces.
+    """Return a cleaned mesh with divided faces, if it has fewer than ``count`` vertices or long faces.
 
-    New vertices come last, and have the original number of the nearest corner. Long flat faces
-    (:func:`~.subdivision.has_long_flat_faces`) stay where they are. Otherwise all faces are cut in four, and new
-    vertices lie on a smooth surface through the others, since two coarse meshes of one body have their edges elsewhere.
+    New vertices come last, and have the original number of the nearest corner. Long faces of a solid, or of a mesh of
+    enough vertices, are cut where they lie. Otherwise all faces are cut in four, and new vertices lie on a smooth
+    surface through the others, since two coarse meshes of one body have their edges elsewhere.
     """
-    if has_long_flat_faces(part.mesh):
+    min_flat, is_coarse = 0.5, len(part.mesh.vertices) < count  # share of a solid's area in flat faces
+    if has_long_faces(part.mesh) and not (is_coarse and flat_area_fraction(part.mesh) < min_flat):
         mesh, piece_of, corners = _split_faces(part.mesh)
-    elif len(part.mesh.vertices) < count:
+    elif is_coarse:
         mesh, piece_of, corners = _subdivide_faces(part.mesh, count)
     else:
         return part
@@ -200,14 +206,14 @@ def _subdivide_faces(mesh: Mesh, count: int) -> tuple[Mesh, np.ndarray, np.ndarr
 
 
 def _split_faces(mesh: Mesh) -> tuple[Mesh, np.ndarray, np.ndarray]:
-    """Return what :func:`.split_long_edges` does, with edges so short that there are not too many vertices."""
-    longest, most = _MAX_EDGE, max(_MAX_VERTICES, 2 * len(mesh.vertices))
-    size = math.sqrt(face_areas(mesh).sum())
-    while True:
+    """Return what :func:`.split_long_edges` does, with edges so long that there are not too many vertices."""
+    size, most = math.sqrt(face_areas(mesh).sum()), max(_MAX_VERTICES, 2 * len(mesh.vertices))
+    found = mesh, np.zeros(0), np.zeros(0)
+    for longest in _LONGEST_EDGES:
         found = split_long_edges(mesh, longest * size)
-        if len(found[0].vertices) <= most or longest >= _MAX_LONG_EDGE:
-            return found
-        longest *= 1.2
+        if len(found[0].vertices) <= most:
+            break
+    return found
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:

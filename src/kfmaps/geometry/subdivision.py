@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, vstack
 
 from kfmaps.geometry.connectivity import half_edges_by_edge
-from kfmaps.geometry.mesh import Mesh, face_areas, face_normals, surface_area
+from kfmaps.geometry.mesh import Mesh, face_areas, face_normals
 
 _PIECES = {
     1: ((0, 3, 2), (3, 1, 2)),
@@ -78,22 +78,31 @@ def interpolating_subdivision(mesh: Mesh) -> Mesh:
     return Mesh(np.concatenate([mesh.vertices, (matrix @ control)[n:]]), faces)
 
 
-def has_long_flat_faces(mesh: Mesh) -> bool:
-    """Return whether most of a surface lies in long faces, many of them in one plane with their neighbours.
+def has_long_faces(mesh: Mesh) -> bool:
+    """Return whether most of a surface lies in faces with long edges, above 0.1 √area on average.
 
-    Solids of CAD files have a mean length of 0.15 to 0.6 √area and half of their edges in planes. Scans and remeshed
-    bodies have at most 0.06; artists' creatures of some hundred vertices as much, but at most 0.13 of their edges in
-    planes (research/coarse-meshes.md).
+    Solids of CAD files have 0.12 to 0.6, artists' meshes of some hundred vertices 0.06 to 0.25, and scans and remeshed
+    bodies at most 0.06 (research/coarse-meshes.md).
     """
-    corners, areas = mesh.vertices[mesh.faces], face_areas(mesh)
-    lengths = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
-    min_length, min_flat, flat_cosine = 0.1, 0.3, np.cos(np.radians(0.5))
-    if areas @ lengths.max(axis=1) <= min_length * areas.sum() * np.sqrt(surface_area(mesh)):
-        return False
-    (one, other), normals = half_edges_by_edge(mesh.faces, len(mesh.vertices))[1], face_normals(mesh)
-    is_flat = np.einsum("ei,ei->e", normals[one // 3], normals[other // 3]) > flat_cosine
-    length = lengths.ravel()[one]
-    return bool(length @ is_flat > min_flat * length.sum())
+    areas, lengths = face_areas(mesh), _edge_lengths(mesh).max(axis=1)
+    return bool(areas @ lengths > 0.1 * areas.sum() ** 1.5)
+
+
+def flat_area_fraction(mesh: Mesh) -> float:
+    """Return the share of a surface's area in faces that lie in one plane with a neighbour, from 0 to 1.
+
+    Solids of CAD files have 0.5 to 1, artists' creatures at most 0.4.
+    """
+    areas, normals = face_areas(mesh), face_normals(mesh)
+    faces = half_edges_by_edge(mesh.faces, len(mesh.vertices))[1] // 3
+    is_flat = np.einsum("ei,ei->e", *normals[faces]) > np.cos(np.radians(0.5))
+    return float(areas[np.unique(faces[:, is_flat])].sum() / areas.sum())
+
+
+def _edge_lengths(mesh: Mesh) -> np.ndarray:
+    """Return the length of the edge from each corner of each face to the next, (f, 3)."""
+    corners = mesh.vertices[mesh.faces]
+    return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
 
 
 def split_long_edges(mesh: Mesh, longest: float) -> tuple[Mesh, np.ndarray, np.ndarray]:
@@ -106,7 +115,7 @@ def split_long_edges(mesh: Mesh, longest: float) -> tuple[Mesh, np.ndarray, np.n
     corners = np.tile(np.eye(3), (len(faces), 1, 1))
     while True:
         n, following = len(vertices), np.roll(faces, -1, axis=1)
-        is_long = np.linalg.norm(vertices[faces] - vertices[following], axis=2) > longest
+        is_long = _edge_lengths(Mesh(vertices, faces)) > longest
         if not is_long.any():
             return Mesh(vertices, faces), face_of, corners
         keys = np.minimum(faces, following) * n + np.maximum(faces, following)
