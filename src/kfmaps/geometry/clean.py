@@ -23,8 +23,7 @@ from kfmaps.geometry.connectivity import (
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
 from kfmaps.geometry.subdivision import (
-    flat_area_fraction,
-    has_long_faces,
+    has_long_flat_faces,
     interpolating_subdivision,
     split_long_edges,
 )
@@ -165,16 +164,15 @@ def _links(edges: np.ndarray, n: int) -> tuple[csr_array, np.ndarray]:
 
 
 def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
-    """Return a cleaned mesh with divided faces, if it has fewer than ``count`` vertices or long faces.
+    """Return a cleaned mesh with divided faces, if it is a solid with long ones or has fewer than ``count`` vertices.
 
-    New vertices come last, and have the original number of the nearest corner. Long faces of a solid, or of a mesh of
-    enough vertices, are cut where they lie. Otherwise all faces are cut in four, and new vertices lie on a smooth
-    surface through the others, since two coarse meshes of one body have their edges elsewhere.
+    New vertices come last, and have the original number of the nearest corner. The long faces of a solid are cut where
+    they lie. Otherwise all faces are cut in four, and new vertices lie on a smooth surface through the others, since
+    two coarse meshes of one body have their edges elsewhere.
     """
-    min_flat, is_coarse = 0.5, len(part.mesh.vertices) < count  # share of a solid's area in flat faces
-    if has_long_faces(part.mesh) and not (is_coarse and flat_area_fraction(part.mesh) < min_flat):
+    if has_long_flat_faces(part.mesh):
         mesh, piece_of, corners = _split_faces(part.mesh)
-    elif is_coarse:
+    elif len(part.mesh.vertices) < count:
         mesh, piece_of, corners = _subdivide_faces(part.mesh, count)
     else:
         return part
