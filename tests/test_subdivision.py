@@ -14,8 +14,8 @@ from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.clean import clean_mesh, divide_mesh, face_outward, flatten_spikes, smooth_noise
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.geometry.subdivision import (
-    has_long_flat_faces,
     interpolating_subdivision,
+    is_polyhedral,
     loop_matrix,
     split_long_edges,
 )
@@ -139,8 +139,9 @@ def test_solids_are_told_from_creatures_and_remeshed_bodies() -> None:
         (fine, False),
         (kfmaps.datasets.sphere(120), False),  # faces as long
         (kfmaps.datasets.torus(1200), False),
+        (Mesh(prism(12).vertices, prism(12).faces[2:]), False),  # open
     ):
-        assert has_long_flat_faces(mesh) == has_long_flat_faces(Mesh(7 * mesh.vertices, mesh.faces)) == expected
+        assert is_polyhedral(mesh) == is_polyhedral(Mesh(7 * mesh.vertices, mesh.faces)) == expected
 
 
 def test_long_faces_of_solids_stay_where_they_are() -> None:

@@ -28,7 +28,7 @@ from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls, without_partitions
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
-from kfmaps.geometry.subdivision import has_long_flat_faces
+from kfmaps.geometry.subdivision import is_polyhedral
 
 EXACT_EIGENPAIRS, LOOSE_TOLERANCE = 3_000, 1e-2
 """Number of vertices up to which eigenfunctions are exact to rounding, and the eigensolver's tolerance above it."""
@@ -198,7 +198,7 @@ def prepare(
     timer = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
     is_cloud, given_faces = len(mesh.faces) == 0, None
-    is_solid = has_long_flat_faces(cleaned.mesh)  # its corners are as sharp as spikes
+    is_solid = is_polyhedral(cleaned.mesh)  # its corners are as sharp as spikes
     flat, n_spikes = (cleaned.mesh, 0) if is_solid else flatten_spikes(cleaned.mesh)
     cleaned = replace(cleaned, mesh=flat)
     # Edges of coarse meshes, and of solids, are as sharp as noise.

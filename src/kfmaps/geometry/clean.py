@@ -23,8 +23,8 @@ from kfmaps.geometry.connectivity import (
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
 from kfmaps.geometry.subdivision import (
-    has_long_flat_faces,
     interpolating_subdivision,
+    is_polyhedral,
     split_long_edges,
 )
 from kfmaps.geometry.weld import weld_vertices
@@ -170,7 +170,7 @@ def divide_mesh(part: CleanedMesh, count: int) -> CleanedMesh:
     they lie. Otherwise all faces are cut in four, and new vertices lie on a smooth surface through the others, since
     two coarse meshes of one body have their edges elsewhere.
     """
-    if has_long_flat_faces(part.mesh):
+    if is_polyhedral(part.mesh):
         mesh, piece_of, corners = _split_faces(part.mesh)
     elif len(part.mesh.vertices) < count:
         mesh, piece_of, corners = _subdivide_faces(part.mesh, count)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, vstack
 
 from kfmaps.geometry.connectivity import half_edges_by_edge
-from kfmaps.geometry.mesh import Mesh, face_areas, face_normals
+from kfmaps.geometry.mesh import Mesh, disc_area, face_areas, face_normals, loop_lengths
 
 _PIECES = {
     1: ((0, 3, 2), (3, 1, 2)),
@@ -78,15 +78,17 @@ def interpolating_subdivision(mesh: Mesh) -> Mesh:
     return Mesh(np.concatenate([mesh.vertices, (matrix @ control)[n:]]), faces)
 
 
-def has_long_flat_faces(mesh: Mesh) -> bool:
-    """Return whether a surface is a solid with long faces, many of which lie in one plane with a neighbour.
+def is_polyhedral(mesh: Mesh) -> bool:
+    """Return whether a surface is a closed solid with long faces, many of which lie in one plane with a neighbour.
 
     The longest edges of faces are above 0.1 √area on average: solids of CAD files have 0.12 to 0.6, artists' meshes of
     some hundred vertices 0.06 to 0.25, and scans and remeshed bodies at most 0.06. Faces beside one in the same plane
     have 45 % of the area: solids have 48 to 100 %, artists' creatures at most 40 % (research/coarse-meshes.md).
     """
     areas, lengths = face_areas(mesh), _edge_lengths(mesh).max(axis=1)
-    if areas @ lengths <= 0.1 * areas.sum() ** 1.5:
+    max_opening = 0.01  # area of flat discs in the boundaries, over that of the surface
+    is_closed = disc_area(loop_lengths(mesh)) <= max_opening * areas.sum()
+    if not is_closed or areas @ lengths <= 0.1 * areas.sum() ** 1.5:
         return False
     normals, faces = face_normals(mesh), half_edges_by_edge(mesh.faces, len(mesh.vertices))[1] // 3
     is_flat = np.einsum("ei,ei->e", *normals[faces]) > np.cos(np.radians(0.5))

@@ -50,11 +50,11 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     """Return which of two surfaces may be a part of the other."""
     if len(source.faces) == 0 or len(target.faces) == 0:
         return PartDetection("none", "point clouds are taken for whole")
-    loops: dict[Literal["source", "target"], np.ndarray] = {
-        "source": _relative_loops(source),
-        "target": _relative_loops(target),
+    loops = _relative_loops(source), _relative_loops(target)
+    openings: dict[Literal["source", "target"], float] = {
+        "source": disc_area(loops[0]),
+        "target": disc_area(loops[1]),
     }
-    openings = {name: disc_area(one) for name, one in loops.items()}
     part, whole = sorted(openings, key=lambda name: -openings[name])
     if openings[part] < SCORE.part.min_opening:
         return PartDetection("none", "no boundary is long enough for a cut")
@@ -64,6 +64,6 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
         meshes = (source, target) if part == "source" else (target, source)
         return PartDetection(part, reason, openings[part], both_open, part, is_view_of(*meshes))
     if both_open:
-        same = _have_same_loops(*loops.values())
+        same = _have_same_loops(*loops)
         return PartDetection("both", "both have long open boundaries", openings[part], both_open, part, same_loops=same)
     return PartDetection("none", "both have open boundaries alike", openings[part])
