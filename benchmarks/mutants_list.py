@@ -912,8 +912,8 @@ MUTANTS = tuple(
             "test_subdivision -k fewer",
         ),
         (
-            "len(np.unique(places, axis=0)) for places in used",
-            "len(places) for places in used",
+            "cleaned = [clean_mesh(mesh).mesh for mesh in valid]",
+            "cleaned = list(valid)",
             "test_subdivision -k fewer",
         ),
         (
@@ -1179,6 +1179,7 @@ MUTANTS = tuple(
         ("mesh=unit_area(cleaned.mesh))", "mesh=cleaned.mesh)", "test_subdivision -k only_a_search"),
         ("len(cleaned.mesh.vertices) >= MIN_SEARCH_VERTICES and not", "not", "test_cleaning -k noise"),
         ("MIN_SEARCH_VERTICES and not is_solid", "MIN_SEARCH_VERTICES", "test_subdivision -k corners_of_solids"),
+        ("_MIN_SOLID_VERTICES if is_polyhedral(mesh) else ", "", "test_subdivision -k few_vertices"),
         ("(cleaned.mesh, 0) if is_solid else flatten", "flatten", "test_subdivision -k corners_of_solids"),
         ("(np.argmin(is_long, axis=1) + 1) % 3)", "is_long.argmax(axis=1))", "test_subdivision -k long_edges"),
         (

@@ -132,6 +132,22 @@ def test_long_edges_are_cut_until_there_is_none() -> None:
     assert len(split_long_edges(one, 1.05)[0].faces) == 4
 
 
+def test_solids_need_few_vertices() -> None:
+    solid, config = prism(3), replace(Config(), threads=1)  # 16 vertices
+    split = Mesh(solid.vertices[solid.faces].reshape(-1, 3), np.arange(solid.faces.size).reshape(-1, 3))
+    few = pytest.warns(KfmapsWarning, match="a mesh has 16 vertices: the map has 10 eigenfunctions")
+    with few, pytest.warns(KfmapsWarning, match="68 vertices on seams"):
+        found = kfmaps.match(solid, split, config)
+    assert found.verdict != "unlikely"
+    np.testing.assert_array_equal(found.target_to_source, solid.faces.ravel())
+    wedge = Mesh(
+        solid.vertices[[0, 2, 4, 8, 10, 12]], np.array([[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5]])
+    )
+    wedge = Mesh(wedge.vertices, np.concatenate([wedge.faces, [[1, 5, 4], [2, 0, 3], [2, 3, 5]]]))
+    with pytest.raises(InvalidInput, match="expected more than 100 vertices"):
+        kfmaps.match(wedge, wedge, config)
+
+
 def test_solids_are_told_from_creatures_and_remeshed_bodies() -> None:
     fine = split_long_edges(prism(12), 0.2)[0]
     for mesh, expected in (

@@ -36,8 +36,8 @@ MAX_SHOT_VERTICES = 7_000
 """Number of vertices at which SHOT is computed; on larger meshes these are a hundredth of √area apart."""
 MIN_SEARCH_VERTICES = 1_000
 """Number of vertices below which the faces of a surface are divided for a search."""
-_MIN_DIVIDED_VERTICES = 60
-"""Least number of vertices of a surface that is divided, with fewer eigenfunctions if it must be."""
+_MIN_DIVIDED_VERTICES, _MIN_SOLID_VERTICES = 60, 12
+"""Least number of vertices of a surface that is divided, with fewer eigenfunctions if it must be; and of a solid."""
 _Repairs = tuple[tuple[Callable[[Mesh], Mesh | None], str], ...]
 _REPAIRS: _Repairs = (
     (without_floor, "the floor is left out"),
@@ -368,9 +368,11 @@ def lower_to_size(config: Config, source: Mesh | Shape, target: Mesh | Shape) ->
     meshes = (one for one in (source, target) if isinstance(one, Mesh) and len(one.faces))
     small = [mesh for mesh in meshes if 0 < len(mesh.vertices) < MIN_SEARCH_VERTICES]
     # Vertices that no face uses, and all but one in a place, do not count. What is not valid is refused elsewhere.
-    used = [np.take(mesh.vertices, mesh.faces.ravel(), axis=0, mode="clip") for mesh in small]
-    least = min((len(np.unique(places, axis=0)) for places in used), default=0)
-    if config.search is None or not _MIN_DIVIDED_VERTICES <= least <= config.n_eigenfunctions:
+    valid = (Mesh(np.nan_to_num(m.vertices), np.clip(m.faces, 0, len(m.vertices) - 1)) for m in small)
+    cleaned = [clean_mesh(mesh).mesh for mesh in valid]
+    least = min((len(mesh.vertices) for mesh in cleaned), default=0)
+    is_few = any(len(mesh.vertices) < _min_vertices(mesh) for mesh in cleaned)
+    if config.search is None or is_few or not 0 < least <= config.n_eigenfunctions:
         return config
     refinement: Any = config.refinement
     count = 2 * least // 3
@@ -381,6 +383,11 @@ def lower_to_size(config: Config, source: Mesh | Shape, target: Mesh | Shape) ->
     )
     warnings.warn(f"a mesh has {least} vertices: the map has {count} eigenfunctions", KfmapsWarning, stacklevel=3)
     return replace(config, basis=basis, descriptors=descriptors, refinement=refinement)
+
+
+def _min_vertices(mesh: Mesh) -> int:
+    """Return the least number of vertices of a cleaned mesh that is divided."""
+    return _MIN_SOLID_VERTICES if is_polyhedral(mesh) else _MIN_DIVIDED_VERTICES
 
 
 def check_prepared(shape: Shape, config: Config) -> None:
