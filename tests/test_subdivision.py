@@ -149,13 +149,19 @@ def test_solids_need_few_vertices() -> None:
 
 
 def test_solids_are_told_from_creatures_and_remeshed_bodies() -> None:
-    fine = split_long_edges(prism(12), 0.2)[0]
+    fine, opened = split_long_edges(prism(12), 0.2)[0], Mesh(prism(12).vertices, prism(12).faces[2:])
+
+    def beside(one: Mesh) -> Mesh:
+        return Mesh(np.concatenate([one.vertices, one.vertices + 5]), np.concatenate([one.faces, one.faces + 34]))
+
     for mesh, expected in (
         (prism(12), True),
         (fine, False),
         (kfmaps.datasets.sphere(120), False),  # faces as long
         (kfmaps.datasets.torus(1200), False),
-        (Mesh(prism(12).vertices, prism(12).faces[2:]), False),  # open
+        (opened, True),
+        (beside(prism(12)), True),
+        (beside(opened), False),
     ):
         assert is_polyhedral(mesh) == is_polyhedral(Mesh(7 * mesh.vertices, mesh.faces)) == expected
 
