@@ -206,12 +206,11 @@ def _subdivide_faces(mesh: Mesh, count: int) -> tuple[Mesh, np.ndarray, np.ndarr
 def _split_faces(mesh: Mesh) -> tuple[Mesh, np.ndarray, np.ndarray]:
     """Return what :func:`.split_long_edges` does, with edges so long that there are not too many vertices."""
     size, most = math.sqrt(face_areas(mesh).sum()), max(_MAX_VERTICES, 2 * len(mesh.vertices))
-    found = mesh, np.zeros(0), np.zeros(0)
-    for longest in _LONGEST_EDGES:
+    for longest in _LONGEST_EDGES[:-1]:
         found = split_long_edges(mesh, longest * size)
         if len(found[0].vertices) <= most:
-            break
-    return found
+            return found
+    return split_long_edges(mesh, _LONGEST_EDGES[-1] * size)
 
 
 def _body_faces(mesh: Mesh) -> tuple[np.ndarray, int]:

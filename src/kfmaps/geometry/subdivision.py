@@ -81,21 +81,21 @@ def interpolating_subdivision(mesh: Mesh) -> Mesh:
 def is_polyhedral(mesh: Mesh) -> bool:
     """Return whether a surface is a solid with long faces, many of which lie in one plane with a neighbour.
 
-    It is closed, or in one piece: artists put buildings and machines together from open pieces.
-
-    The longest edges of faces are above 0.1 √area on average: solids of CAD files have 0.12 to 0.6, artists' meshes of
-    some hundred vertices 0.06 to 0.25, and scans and remeshed bodies at most 0.06. Faces beside one in the same plane
-    have 45 % of the area: solids have 48 to 100 %, artists' creatures at most 40 % (research/coarse-meshes.md).
+    The longest edges of its faces are above 0.1 √area on average (solids of CAD files have 0.12 to 0.6, artists' meshes
+    of some hundred vertices 0.06 to 0.25, scans and remeshed bodies at most 0.06), and faces with a neighbour in their
+    plane have more than 45 % of the area (solids have 48 to 100 %, artists' creatures at most 40 %). A solid is closed
+    or in one piece: artists put buildings together from open pieces (research/coarse-meshes.md).
     """
     areas, lengths = face_areas(mesh), _edge_lengths(mesh).max(axis=1)
-    max_opening = 0.01  # area of flat discs in the boundaries, over that of the surface
-    is_open = disc_area(loop_lengths(mesh)) > max_opening * areas.sum()
-    is_in_pieces = is_open and len(component_areas(mesh)[1]) > 1
-    if is_in_pieces or areas @ lengths <= 0.1 * areas.sum() ** 1.5:
+    if areas @ lengths <= 0.1 * areas.sum() ** 1.5:
         return False
     normals, faces = face_normals(mesh), half_edges_by_edge(mesh.faces, len(mesh.vertices))[1] // 3
     is_flat = np.einsum("ei,ei->e", *normals[faces]) > np.cos(np.radians(0.5))
-    return bool(areas[np.unique(faces[:, is_flat])].sum() > 0.45 * areas.sum())
+    if areas[np.unique(faces[:, is_flat])].sum() <= 0.45 * areas.sum():
+        return False
+    max_opening = 0.01  # area of flat discs in the boundaries, over that of the surface
+    is_closed = disc_area(loop_lengths(mesh)) <= max_opening * areas.sum()
+    return is_closed or len(component_areas(mesh)[1]) == 1
 
 
 def _edge_lengths(mesh: Mesh) -> np.ndarray:
