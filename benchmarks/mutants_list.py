@@ -60,7 +60,7 @@ MUTANTS = tuple(
         ("(angle % (2 * np.pi)).argmin()", "(angle % (2 * np.pi)).argmax()", "test_holes -k touch"),
         ("for edges in (boundary, shared):", "for edges in (boundary,):", "test_cleaning -k fin"),
         ("alignment >= _MIN_ALIGNMENT", "alignment >= -_MIN_ALIGNMENT", "test_holes"),
-        ("opening - disc_area(loop_lengths(filled)) >=", "opening >=", "test_holes"),
+        ("opening - opening_area(filled) >=", "opening >=", "test_holes"),
         ("min(detection.opening, 1.0))", "1 - min(detection.opening, 1.0))", "test_parts -k less_probable"),
         # kernel
         ("[None, :] - 2 * (X @ Y.T)", "[None, :] - (X @ Y.T)", KERNEL),

@@ -22,11 +22,7 @@ from kfmaps.geometry.connectivity import (
 )
 from kfmaps.geometry.face_orientation import doubled_faces, inward_faces, turn_faces
 from kfmaps.geometry.mesh import Mesh, component_areas, face_areas
-from kfmaps.geometry.subdivision import (
-    interpolating_subdivision,
-    is_polyhedral,
-    split_long_edges,
-)
+from kfmaps.geometry.subdivision import interpolating_subdivision, is_polyhedral, split_long_edges
 from kfmaps.geometry.weld import weld_vertices
 
 _MAX_SPECK_AREA = 0.005

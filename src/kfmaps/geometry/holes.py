@@ -8,12 +8,10 @@ import numpy as np
 
 from kfmaps._arrays import blocks
 from kfmaps.geometry.connectivity import half_edges_by_edge, mesh_edges
-from kfmaps.geometry.mesh import Mesh, disc_area, face_areas, loop_lengths, unit_rows, vertex_normals
+from kfmaps.geometry.mesh import MIN_OPENING, Mesh, face_areas, opening_area, unit_rows, vertex_normals
 
 EdgeTest = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
-_MIN_OPENING = 0.01
-"""Area of flat discs in all boundaries, over that of the surface, below which a shape counts as closed."""
 _MIN_SHARE = 0.4
 """Least share of the opening that small holes make up. A shape that is mostly cut off stays as it is."""
 _MAX_AREA, _MAX_PERIMETER, _MAX_CORNERS = 0.01, 0.8, 300
@@ -35,8 +33,8 @@ def fill_holes(mesh: Mesh) -> Mesh | None:
     ``mesh``: cleaned, of unit area, oriented consistently. The faces of a hole have the least area, which dynamic
     programming finds (Barequet and Sharir, Filling gaps in the boundary of a polyhedron, 1995).
     """
-    opening = disc_area(loop_lengths(mesh))
-    if opening < _MIN_OPENING:
+    opening = opening_area(mesh)
+    if opening < MIN_OPENING:
         return None
     boundary = half_edges_by_edge(mesh.faces, len(mesh.vertices))[0]
     # Around a hole the border runs against the faces beside it.
@@ -48,7 +46,7 @@ def fill_holes(mesh: Mesh) -> Mesh | None:
         for rows in blocks(len(loops), 1 + _BLOCK // loops.shape[1] ** 2)
     ]
     filled = Mesh(mesh.vertices, np.concatenate([mesh.faces, *added]))
-    return filled if opening - disc_area(loop_lengths(filled)) >= _MIN_SHARE * opening else None
+    return filled if opening - opening_area(filled) >= _MIN_SHARE * opening else None
 
 
 def _loops_by_size(vertices: np.ndarray, normals: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:

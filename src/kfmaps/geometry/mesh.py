@@ -144,6 +144,15 @@ def loop_lengths(mesh: Mesh) -> np.ndarray:
     return np.sort(lengths)[::-1]
 
 
+MIN_OPENING = 0.01
+"""Area of flat discs in all boundaries, over that of the surface, below which a shape counts as closed."""
+
+
+def opening_area(mesh: Mesh) -> float:
+    """Return the total area of flat discs with the lengths of the boundary loops."""
+    return disc_area(loop_lengths(mesh))
+
+
 MIRROR = np.array([-1.0, 1.0, 1.0])
 """Factors of the coordinates that reflect positions in the plane x = 0."""
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array, vstack
 
-from kfmaps.geometry.connectivity import half_edges_by_edge
-from kfmaps.geometry.mesh import Mesh, component_areas, disc_area, face_areas, face_normals, loop_lengths
+from kfmaps.geometry.connectivity import edge_keys, half_edges_by_edge
+from kfmaps.geometry.mesh import MIN_OPENING, Mesh, component_areas, face_areas, face_normals, opening_area
 
 _PIECES = {
     1: ((0, 3, 2), (3, 1, 2)),
@@ -30,8 +30,7 @@ def divide_faces(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
     ``n``: number of vertices. Returns the ends of the edges, (e, 2), whose middles are the vertices from ``n`` on; and
     the faces, (4 f, 3): for each face the three at its corners, and after all these the ones in the middle.
     """
-    a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edges, number = np.unique(np.minimum(a, b) * n + np.maximum(a, b), return_inverse=True)
+    edges, number = np.unique(edge_keys(faces, n), return_inverse=True)
     across = n + number.reshape(-1, 3)  # the middle of the edge from corner i to corner i + 1
     corners = np.stack([faces, across, across[:, [2, 0, 1]]], axis=2).reshape(-1, 3)
     return np.stack([edges // n, edges % n], axis=1), np.concatenate([corners, across])
@@ -93,8 +92,7 @@ def is_polyhedral(mesh: Mesh) -> bool:
     is_flat = np.einsum("ei,ei->e", *normals[faces]) > np.cos(np.radians(0.5))
     if areas[np.unique(faces[:, is_flat])].sum() <= 0.45 * areas.sum():
         return False
-    max_opening = 0.01  # area of flat discs in the boundaries, over that of the surface
-    is_closed = disc_area(loop_lengths(mesh)) <= max_opening * areas.sum()
+    is_closed = opening_area(mesh) < MIN_OPENING * areas.sum()
     return is_closed or len(component_areas(mesh)[1]) == 1
 
 
@@ -113,11 +111,11 @@ def split_long_edges(mesh: Mesh, longest: float) -> tuple[Mesh, np.ndarray, np.n
     vertices, faces, face_of = mesh.vertices, mesh.faces, np.arange(len(mesh.faces))
     corners = np.tile(np.eye(3), (len(faces), 1, 1))
     while True:
-        n, following = len(vertices), np.roll(faces, -1, axis=1)
+        n = len(vertices)
         is_long = _edge_lengths(Mesh(vertices, faces)) > longest
         if not is_long.any():
             return Mesh(vertices, faces), face_of, corners
-        keys = np.minimum(faces, following) * n + np.maximum(faces, following)
+        keys = edge_keys(faces, n).reshape(-1, 3)
         cut = np.unique(keys[is_long])
         vertices = np.concatenate([vertices, (vertices[cut // n] + vertices[cut % n]) / 2])
         count = is_long.sum(axis=1)
