@@ -22,7 +22,8 @@ from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh, divide_mesh, face_outward, flatten_spikes, smooth_noise
 from kfmaps.geometry.cloud_surface import surface_of_cloud
-from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
+from kfmaps.geometry.coarse_basis import coarse_basis, n_proxy_vertices
+from kfmaps.geometry.eigen.eigensolver import EXACT
 from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.holes import fill_holes
 from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
@@ -227,10 +228,8 @@ def prepare(
         _check_size(unit, name, config)
     laplacian, radius = config.basis.laplacian, config.descriptors.shot_radius
     size, local = config.n_eigenfunctions, None
-    tolerance = EXACT if len(unit.vertices) <= EXACT_EIGENPAIRS else LOOSE_TOLERANCE
     with limit_threads(config.threads), timer("eigenfunctions"):
-        stage = partial(timer.report, "eigenfunctions")
-        basis = laplace_basis(unit, size, laplacian, progress=stage, tolerance=tolerance)
+        basis = _basis(unit, size, laplacian, partial(timer.report, "eigenfunctions"))
     if config.descriptors.shot and len(mesh.faces):
         with limit_threads(config.threads), timer("SHOT"):
             local = _local_descriptors(unit, basis, radius, lambda d: timer.report("SHOT", min(d, 0.99)))
@@ -247,6 +246,15 @@ def prepare(
     if not is_cloud:  # need not be computed again
         vars(whole_shape)["cleaned"] = replace(shape, mesh=unit), replace(cleaned, mesh=unit)
     return whole_shape
+
+
+def _basis(mesh: Mesh, k: int, laplacian: str, progress: Callable[[float], None]) -> Basis:
+    """Return eigenfunctions of a cleaned mesh or cloud, as exact as a match needs them."""
+    n = len(mesh.vertices)
+    if len(mesh.faces) and n > 2 * n_proxy_vertices(k):
+        return coarse_basis(mesh, k, laplacian, LOOSE_TOLERANCE, progress)
+    tolerance = EXACT if n <= EXACT_EIGENPAIRS else LOOSE_TOLERANCE
+    return laplace_basis(mesh, k, laplacian, progress=progress, tolerance=tolerance)
 
 
 def _local_descriptors(
@@ -412,7 +420,7 @@ def prepare_both(
     names: tuple[str, str] = ("source", "target"),
     progress: Progress | None = None,
 ) -> list[Shape]:
-    """Prepare both shapes, in parallel where they are small, since a small eigenproblem cannot use several cores.
+    """Prepare both shapes, in parallel.
 
     A :class:`Shape` is only checked against ``config``. Both shapes are checked before work begins.
     """
@@ -422,12 +430,10 @@ def prepare_both(
             _check_size(shape, name, config)
         else:
             check_prepared(shape, config)
-    unprepared = [shape for shape in (source, target) if isinstance(shape, Mesh)]
-    in_parallel = len(unprepared) == 2 and max(len(mesh.vertices) for mesh in unprepared) < THREADED
 
     def prepared(item: tuple[Mesh | Shape, str]) -> Shape:
         shape, name = item
         return prepare(shape, config, name=name, progress=progress) if isinstance(shape, Mesh) else shape
 
     with limit_threads(config.threads), one_blas_thread():
-        return parallel(prepared, named_shapes) if in_parallel else [prepared(item) for item in named_shapes]
+        return parallel(prepared, named_shapes)

@@ -149,7 +149,7 @@ def _mollify(corners: np.ndarray) -> np.ndarray:
     return np.divide(numerator, 8 * area, out=np.zeros_like(numerator), where=area > 0)
 
 
-def _operators(mesh: Mesh, laplacian: str, k: int) -> tuple[SparseMatrix, np.ndarray]:
+def laplace_operators(mesh: Mesh, laplacian: str, k: int) -> tuple[SparseMatrix, np.ndarray]:
     """Return the weak Laplacian (n, n) and lumped mass (n,) of a cleaned mesh or cloud of more than ``k`` vertices."""
     if len(mesh.vertices) <= k:
         wanted = f"fewer eigenfunctions than the {len(mesh.vertices)} vertices in use"
@@ -220,7 +220,7 @@ def laplace_basis(
     """
     check_is_mesh(mesh)
     cleaned = clean_mesh(mesh)
-    stiffness, area = _operators(cleaned.mesh, laplacian, check_count(k, "k"))
+    stiffness, area = laplace_operators(cleaned.mesh, laplacian, check_count(k, "k"))
     pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, progress=progress)
     if cleaned.whole:
         return Basis(pairs.values, pairs.vectors, area)

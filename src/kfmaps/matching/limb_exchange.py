@@ -92,7 +92,8 @@ def compare_exchanged(best: Candidate, pair: SamplePair, proxies: ProxyCache) ->
     start = best.unregistered
 
     def may_win(other: Candidate) -> bool:
-        return other.score > (start.score if _are_alike(other, start, pair) else start.score - SCORE.max_behind)
+        least = start.score if _are_alike(other, start, pair) else start.score - SCORE.max_exchange_behind
+        return other.score > least
 
     found, last = by_score(exchange_limbs(start, pair)), start
     while found and found[0].score > last.score:  # three legs, each taken for the next, need two exchanges

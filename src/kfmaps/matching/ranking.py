@@ -86,7 +86,9 @@ def ranking(
     ``least``.
     """
     ranked = distinct_candidates(found, samples.source)
-    near = [c for c in ranked[:N_REGISTERED] if c.score > ranked[0].score - SCORE.max_behind]
+    # Where margins count less, a candidate must be farther behind to be none that decides the verdict.
+    least_near = ranked[0].score - SCORE.max_behind / samples.margin_factor
+    near = [c for c in ranked[:N_REGISTERED] if c.score > least_near]
     registered = with_deformation_energy(near, proxies)
     if not registered:
         return ranked

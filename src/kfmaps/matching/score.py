@@ -273,6 +273,9 @@ class Scoring:
     """Excess deformation (:func:`excess_deformation`) from which maps to the mirror image are tried."""
     max_behind: float = 3.0
     """Margin behind which a candidate is not registered."""
+    max_exchange_behind: float = 5.0
+    """The same of a map with limbs exchanged: between unlike bodies right ones have been 3.5 behind, with half of the
+    deformation energy."""
     shot_margin: float = 2.5
     """Margin of the first two candidates below which their SHOT errors are compared; also the margin below which a map
     with limbs exchanged or to the mirror image casts a doubt."""

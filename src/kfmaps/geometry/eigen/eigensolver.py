@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +10,8 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
-from kfmaps._threads import n_threads, one_blas_thread
-from kfmaps.geometry.eigen.factorization import Map, SparseMatrix, factorize, fill_order
+from kfmaps._threads import one_blas_thread
+from kfmaps.geometry.eigen.factorization import SparseMatrix, factorize
 from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
 
 _SOLVES_PER_BLOCK = 1.25
@@ -26,10 +24,6 @@ _MAX_LOOSE_RESIDUAL = 1e-2
 """What a solution in single precision may leave of the right-hand side; 3e-6 is usual at 80,000 rows."""
 
 _LOOSE_SHIFT = 10.0  # shift of a loose search, in units of the usual one
-
-
-THREADED = 50_000
-"""Rows from which Python threads pay, for solves and tall products."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +59,7 @@ def smallest_eigenpairs(
 
     Where the Krylov basis would not fit, of a few hundred rows, the whole spectrum is computed instead. Every pair is
     checked against the tolerance before it is returned, and block Lanczos looks for eigenvalues that it may have missed
-    (repeated ones of identical components, clusters of spheres). The same input gives the same answer, whatever the
-    number of threads.
+    (repeated ones of identical components, clusters of spheres). The same input gives the same answer.
 
     Parameters
     ----------
@@ -103,8 +96,8 @@ def smallest_eigenpairs(
     matrix, mass = _check_pencil(stiffness, mass)
     check_count(k, "k", 1, len(mass))
     check_positive(tolerance, "tolerance")
-    with one_blas_thread(), _map_of_threads(len(mass)) as each:
-        return _solve(matrix, mass, k, tolerance, rng, each, progress)
+    with one_blas_thread():
+        return _solve(matrix, mass, k, tolerance, rng, progress)
 
 
 def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array, np.ndarray]:
@@ -124,38 +117,24 @@ def _check_pencil(stiffness: SparseMatrix, mass: np.ndarray) -> tuple[csr_array,
     return matrix, mass
 
 
-@contextmanager
-def _map_of_threads(rows: int) -> Iterator[Map]:
-    """Yield ``map``, or that of a pool of threads where these pay."""
-    if (workers := n_threads()) > 1 and rows >= THREADED:
-        with ThreadPoolExecutor(workers) as pool:
-            yield pool.map
-    else:
-        yield map
-
-
 def _solve(
     matrix: csr_array,
     mass: np.ndarray,
     k: int,
     tolerance: float,
     rng: int | np.random.Generator,
-    each: Map,
     progress: Callable[[float], None] | None,
 ) -> Eigenpairs:
     """Return the eigenpairs of a checked pencil; see :func:`smallest_eigenpairs`."""
     # At a vertex without mass a function is harmonic. So little mass changes no eigenvalue.
     floored = np.maximum(mass, 1e-10 * mass.mean())
-    order = fill_order(matrix)
-    if order is not None:
-        matrix, floored = matrix[order][:, order], floored[order]
     dense = len(mass) <= max(400, 4 * k + 200)
     if not dense and tolerance >= LOOSE:
-        loose = _solve_loosely(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
+        loose = _solve_loosely(matrix, floored, k, tolerance, np.random.default_rng(rng), progress)
         if loose is not None:
-            return _with_signs(loose, order)
+            return loose
         tolerance = EXACT
-    pencil = _Pencil(matrix, floored, order is not None, each)
+    pencil = _Pencil(matrix, floored)
     if progress is not None:
         pencil.solve = _report_solves(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
     vectors = _vectors(pencil, k, dense, tolerance, np.random.default_rng(rng))
@@ -171,7 +150,7 @@ def _solve(
             f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
             f"{residuals[bad].max():.1e}. Look for parts without area, or for coordinates of very different size."
         )
-    return _with_signs(_ascending(values, vectors, residuals), order)
+    return _ascending(values, vectors, residuals)
 
 
 def _solve_loosely(
@@ -180,8 +159,6 @@ def _solve_loosely(
     k: int,
     tolerance: float,
     rng: np.random.Generator,
-    order: np.ndarray | None,
-    each: Map,
     progress: Callable[[float], None] | None,
 ) -> Eigenpairs | None:
     """Return the pairs to a loose ``tolerance``, with factor and basis in single precision, or ``None``.
@@ -191,7 +168,7 @@ def _solve_loosely(
     triangles. Then eigenvalues and Rayleigh quotients, in double precision, differ, and the result is ``None``.
     """
     try:
-        pencil = _Pencil(matrix, mass, order is not None, each, _LOOSE_SHIFT, np.float32)
+        pencil = _Pencil(matrix, mass, _LOOSE_SHIFT, np.float32)
         block = pencil.root[:, None] * rng.normal(size=(len(mass), 4))
         solution = pencil.solve(block)
         residual = matrix @ solution + (_LOOSE_SHIFT * pencil.unit * mass)[:, None] * solution - block
@@ -199,7 +176,7 @@ def _solve_loosely(
             return None
         if progress is not None:
             pencil.solve = _report_solves(pencil.solve, (2.4 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
-        largest = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng, each=each)
+        largest = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng)
     except NotConverged:
         return None
     vectors = largest.vectors[:, :k]
@@ -237,15 +214,13 @@ class _Pencil:
         self,
         matrix: SparseMatrix,
         mass: np.ndarray,
-        ordered: bool,
-        each: Map,
         shift: float = 1.0,
         precision: type = np.float64,
     ) -> None:
-        self.matrix, self.mass, self.root, self.each = matrix, mass, np.sqrt(mass), each
+        self.matrix, self.mass, self.root = matrix, mass, np.sqrt(mass)
         self.unit = 4 * np.pi / mass.sum()
         shifted = matrix + shift * self.unit * diags_array(mass)
-        self.solve = factorize(shifted.astype(precision, copy=False), ordered, each)
+        self.solve = factorize(shifted.astype(precision, copy=False))
 
     def inverse(self, block: np.ndarray) -> np.ndarray:
         """Return ``√A (L + σA)⁻¹ √A`` times the block."""
@@ -271,7 +246,7 @@ def _vectors(pencil: _Pencil, k: int, dense: bool, tolerance: float, rng: np.ran
         inverse = pencil.inverse(np.eye(n))
         _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
         return _rayleigh_ritz(pencil, vectors)
-    largest = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
+    largest = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng)
     if largest.stages == 1:
         return largest.vectors[:, :k] / pencil.root[:, None]
     # Pairs of different stages are decoupled only to the tolerance of the largest.
@@ -304,18 +279,14 @@ def _unconverged(
 
 
 def _ascending(values: np.ndarray, vectors: np.ndarray, residuals: np.ndarray) -> Eigenpairs:
-    """Return the pairs in ascending order; the columns of ``vectors (n, k)`` are reordered in place."""
+    """Return the pairs in ascending order with definite signs; ``vectors (n, k)`` is changed in place."""
     order = np.argsort(values, kind="stable")
     moved = np.flatnonzero(order != np.arange(len(order)))
     vectors[:, moved] = vectors[:, order[moved]]
-    return Eigenpairs(values[order], vectors, residuals[order])
+    return Eigenpairs(values[order], turn_peaks_up(vectors), residuals[order])
 
 
-def _with_signs(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
-    """Return the pairs in the caller's order of rows, with definite signs."""
-    vectors = pairs.vectors
-    if order is not None:
-        vectors = np.empty_like(pairs.vectors)
-        vectors[order] = pairs.vectors
+def turn_peaks_up(vectors: np.ndarray) -> np.ndarray:
+    """Turn the signs of columns in place so that the entry of largest magnitude of each is positive; return them."""
     vectors[:, vectors.max(axis=0) < -vectors.min(axis=0)] *= -1.0
-    return Eigenpairs(pairs.values, vectors, pairs.residuals)
+    return vectors

@@ -2,56 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from importlib.util import find_spec
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import SuperLU, splu
 
-from kfmaps._arrays import NotConverged
+from kfmaps._arrays import NotConverged, blocks
 
 Solve = Callable[[np.ndarray], np.ndarray]
-Map = Callable[..., Iterable[Any]]
 SparseMatrix = Any
 """A SciPy sparse array or matrix."""
 
 
 _COLUMNS = 4
-"""Right-hand sides that are solved at once. SuperLU reads the factor once for all of them; with fewer, threads spend
-together more than they save. They are split so with one thread too, at no cost: on some processors the last bits hang
-on how many there are."""
+"""Right-hand sides that are solved at once. SuperLU reads the factor once for all of them; more are no faster."""
 
 
-def fill_order(matrix: SparseMatrix) -> np.ndarray | None:
-    """Return an order of the rows, (n,), in which a factor stays small; ``None`` leaves it to SuperLU.
-
-    ``matrix (n, n)``: symmetric in its pattern. METIS's nested dissection gives a smaller factor and faster solves from
-    some ten thousand rows; it comes with ``kfmaps[fast]``. Without it SuperLU takes its minimum degree.
-    """
-    if find_spec("pymetis") is None:
-        return None
-    import pymetis
-
-    graph: SparseMatrix = csr_array(matrix, copy=True)
-    graph.setdiag(0)
-    graph.eliminate_zeros()
-    order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(graph.indptr, graph.indices))
-    return np.asarray(order)
-
-
-def factorize(matrix: SparseMatrix, ordered: bool, each: Map = map) -> Solve:
+def factorize(matrix: SparseMatrix, ordered: bool = False) -> Solve:
     """Factorise ``matrix`` once and return the function that solves with it.
 
     ``matrix (n, n)``: symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is
     positive definite, else to be checked by its solutions. Then an ordering of ``A + Aᵀ`` serves, with half the factor
-    that SciPy's default, made for unsymmetric matrices, gives. ``ordered``: whether the rows are already in a
-    :func:`fill_order`; else SuperLU finds one; ``each``: ``map``, or that of a thread pool, over which the blocks of
-    right-hand sides are spread (SuperLU releases the interpreter's lock). Returns ``(n, b) -> (n, b)`` float64 in
-    column-major order.
+    that SciPy's default, made for unsymmetric matrices, gives. ``ordered``: whether the rows are already in an order
+    that keeps the factor small; else SuperLU finds one. Returns ``(n, b) -> (n, b)`` float64 in column-major order.
     """
-    return _solver(_factor(matrix, ordered), matrix.dtype, each)
+    return _solver(_factor(matrix, ordered), matrix.dtype)
 
 
 class ShiftedFactorizer:
@@ -100,13 +77,12 @@ def _factor(matrix: SparseMatrix, ordered: bool) -> SuperLU:
         raise NotConverged(f"factorisation: {error}. The mesh has parts without area or stiffness.") from error
 
 
-def _solver(factor: SuperLU, precision: np.dtype, each: Map) -> Solve:
+def _solver(factor: SuperLU, precision: np.dtype) -> Solve:
     def solve(block: np.ndarray) -> np.ndarray:
         right = np.asfortranarray(block, dtype=precision)
-        parts = [right[:, start : start + _COLUMNS] for start in range(0, right.shape[1], _COLUMNS)]
         result = np.empty(right.shape, order="F")
-        for i, part in enumerate(each(factor.solve, parts)):
-            result[:, i * _COLUMNS : (i + 1) * _COLUMNS] = part
+        for part in blocks(right.shape[1], _COLUMNS):
+            result[:, part] = factor.solve(right[:, part])
         return result
 
     return solve

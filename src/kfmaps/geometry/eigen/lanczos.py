@@ -18,19 +18,18 @@ orthogonalization procedure with constant synchronization requirements (2002).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from kfmaps._arrays import NotConverged, blocks
-from kfmaps.geometry.eigen.factorization import Map
 
 WIDTH = 8
 """Vectors in a block. Wider ones need more vectors in all, narrower ones more passes over basis and factor."""
 
 
-_ROWS = 16384  # rows of the tall products that are worked on together: they fit the cache and can go to threads
+_ROWS = 16384  # rows of the tall products that are worked on together: they fit the cache
 
 _EQUAL_RTOL = 1e-9  # relative difference below which two eigenvalues count as copies of one
 
@@ -48,47 +47,33 @@ class _ConvergedPairs:
     stages: int
 
 
-def _slices(n: int) -> Iterator[slice]:
-    return iter(blocks(n, _ROWS))
-
-
-def _times(tall: np.ndarray, small: np.ndarray, each: Map) -> np.ndarray:
+def _times(tall: np.ndarray, small: np.ndarray) -> np.ndarray:
     """``tall @ small``, column-major, in the precision of ``tall``."""
     result = np.empty((len(tall), small.shape[1]), order="F")
     small = np.asarray(small, dtype=tall.dtype)
-
-    def fill(rows: slice) -> None:
+    for rows in blocks(len(tall), _ROWS):
         result[rows] = (small.T @ tall[rows].T).T
-
-    list(each(fill, _slices(len(tall))))
     return result
 
 
-def _subtract(block: np.ndarray, basis: np.ndarray, along: np.ndarray, each: Map) -> None:
+def _subtract(block: np.ndarray, basis: np.ndarray, along: np.ndarray) -> None:
     """``block -= basis @ along``, in place; the product in the precision of ``basis``."""
     along = np.asarray(along, dtype=basis.dtype)
-
-    def rows_of(rows: slice) -> None:
+    for rows in blocks(len(block), _ROWS):
         block[rows] -= (along.T @ basis[rows].T).T  # written as column-major as the block is
 
-    list(each(rows_of, _slices(len(block))))
 
-
-def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> float:
+def _remove(block: np.ndarray, basis: np.ndarray) -> float:
     """Take from ``block``, in place, its components along the columns of ``basis``; the largest of them."""
     if basis.shape[1] == 0:
         return 0.0
-
-    # The parts are added in a fixed order: the number of threads must not change a bit.
-    def against(rows: slice) -> np.ndarray:
-        return basis[rows].T @ np.asarray(block[rows], dtype=basis.dtype)
-
-    along = np.asarray(np.sum(list(each(against, _slices(len(block)))), axis=0, dtype=np.float64))
-    _subtract(block, basis, along, each)
+    parts = [basis[rows].T @ np.asarray(block[rows], dtype=basis.dtype) for rows in blocks(len(block), _ROWS)]
+    along = np.asarray(np.sum(parts, axis=0, dtype=np.float64))
+    _subtract(block, basis, along)
     return float(np.abs(along).max())
 
 
-def _normalise(block: np.ndarray, each: Map) -> tuple[np.ndarray, np.ndarray, float]:
+def _normalise(block: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
     """``(Q, R, spread)`` with ``block = Q R``; the smaller the spread, the less orthonormal ``Q`` may be.
 
     Directions below rounding are scaled up like the others: they turn into noise, which the next call orthonormalises,
@@ -100,20 +85,20 @@ def _normalise(block: np.ndarray, each: Map) -> tuple[np.ndarray, np.ndarray, fl
     values, rotation = np.linalg.eigh(gram / np.outer(size, size))
     spread = float(values[0])
     root = np.sqrt(np.maximum(values, 1e-15 * values[-1]))
-    return _times(block, rotation / size[:, None] / root, each), root[:, None] * rotation.T * size, spread
+    return _times(block, rotation / size[:, None] / root), root[:, None] * rotation.T * size, spread
 
 
-def _orthonormal(block: np.ndarray, bases: list[np.ndarray], each: Map) -> tuple[np.ndarray, np.ndarray, float]:
+def _orthonormal(block: np.ndarray, bases: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, float]:
     """``(Q, R, found)``: ``block = Q R`` up to components along ``bases``, to which ``Q`` is orthogonal.
 
     ``found`` is the largest such component of the block once it had been normalised.
     """
-    block, total, _ = _normalise(block, each)
+    block, total, _ = _normalise(block)
     found = 0.0
     for turn in range(5):
-        largest = max([_remove(block, basis, each) for basis in bases], default=0.0)
+        largest = max([_remove(block, basis) for basis in bases], default=0.0)
         found = found if turn else largest
-        block, factor, spread = _normalise(block, each)
+        block, factor, spread = _normalise(block)
         total = factor @ total
         if spread > 0.5:
             break
@@ -126,7 +111,6 @@ def _stage(
     k: int,
     tolerance: float,
     rng: np.random.Generator,
-    each: Map,
 ) -> tuple[np.ndarray, np.ndarray]:
     """One run from a random block in the complement of ``locked``; its converged values and vectors."""
     n, b = len(locked.vectors), WIDTH
@@ -135,7 +119,7 @@ def _stage(
     basis = np.empty((n, limit + b), order="F", dtype=np.float32 if loose else np.float64)  # pages taken when written
     recent = np.zeros((n, 2 * b), order="F")  # the last two blocks, whatever the precision of the basis
     projected = np.zeros((limit + b, limit + b))
-    block, _, _ = _orthonormal(apply(rng.normal(size=(n, b))), [locked.vectors], each)
+    block, _, _ = _orthonormal(apply(rng.normal(size=(n, b))), [locked.vectors])
     basis[:, :b] = recent[:, b:] = block
     probing = len(locked.values) >= k
     sparing = locked.stages == 0
@@ -147,14 +131,14 @@ def _stage(
         new = apply(block)
         diagonal = block.T @ new
         diagonal = (diagonal + diagonal.T) / 2
-        _subtract(new, recent[:, -size:], np.vstack([coupling.T, diagonal])[-size:], each)
+        _subtract(new, recent[:, -size:], np.vstack([coupling.T, diagonal])[-size:])
         here = slice(size - b, size)
         projected[here, here] = diagonal
         # Two steps lose some four digits of orthogonality at most, so every second block may do with the
         # three-term recurrence, unless that turns out to lose more.
         brief = sparing and size // b % 2 == 0
         against = [] if brief else [locked.vectors, basis[:, :size]]
-        following, coupling, found = _orthonormal(new, against, each)
+        following, coupling, found = _orthonormal(new, against)
         # Orthogonality lost in two steps grows in each by about the largest eigenvalue over the smallest wanted one.
         sparing &= found < (1e-3 if loose else 1e-10)
         recent[:, :b], recent[:, b:] = block, following
@@ -172,7 +156,7 @@ def _stage(
                 take = np.flatnonzero(good)
                 # Ritz vectors after one more step of the operator, for nothing: its image is in the basis.
                 small = np.vstack([rotation[:, take], left_over[:, take] / values[take]])
-                return values[take], _times(basis[:, : size + b], small, each)
+                return values[take], _times(basis[:, : size + b], small)
             worst = float((residual / values)[wanted].max())
             check = size + b * (1 if probing else _steps(before, (size, worst), k, tolerance))
             before = (size, worst)
@@ -212,17 +196,15 @@ def largest_eigenpairs(
     *,
     tolerance: float,
     rng: np.random.Generator,
-    each: Map = map,
 ) -> _ConvergedPairs:
     """Return at least the ``k`` largest eigenpairs of an operator.
 
     ``apply``: (n, b) -> (n, b); ``n`` and ``k``: ``n`` above ``_capacity(k)``; ``tolerance``: bound on ``‖apply(x) −
-    νx‖ / ν`` before the last, refining step; ``rng``: draws the start vectors; ``each``: ``map``, or that of a thread
-    pool.
+    νx‖ / ν`` before the last, refining step; ``rng``: draws the start vectors.
     """
     locked = _ConvergedPairs(np.zeros(0), np.zeros((n, 0)), 0)
     while True:
-        values, vectors = _stage(apply, locked, k, tolerance, rng, each)
+        values, vectors = _stage(apply, locked, k, tolerance, rng)
         if len(locked.values) >= k:
             if not (values > locked.values[k - 1] * (1 + _EQUAL_RTOL)).any():
                 return locked
