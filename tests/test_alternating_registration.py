@@ -472,6 +472,21 @@ def test_a_search_tells_what_else_may_turn_out_better(creature_pair, monkeypatch
     assert [search_module.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
 
 
+@pytest.mark.parametrize("too_much", [False, True])
+def test_a_good_map_that_deforms_the_shape_too_much_is_repaired_with_its_rivals(creature_pair, monkeypatch, too_much):
+    """Another one, torn so far, may be the right one: a giraffe has been half a turn off."""
+    found = score_maps([Start("0", creature_pair.C)], creature_pair.fine)
+    assert found[0].quality.calibrated_score > SCORE.repair_score
+    repaired: list[str] = []
+    monkeypatch.setattr(search_module, "_compare_exchanged", lambda state: state)
+    monkeypatch.setattr(search_module, "deforms_too_much", lambda _best: too_much)
+    monkeypatch.setattr(
+        search_module, "refine_by_registration", lambda ranked, *_, **__: repaired.extend(ranked) or (ranked, ())
+    )
+    search_module._improve_best(_ranked_state(creature_pair, found), lambda *_: None)
+    assert bool(repaired) == too_much
+
+
 @pytest.mark.parametrize(("output", "alone"), [("sure", True), ("likely", False)])
 def test_of_a_sure_map_nothing_else_is_repaired(creature_pair, astray, monkeypatch, output, alone):
     found = score_maps([Start("0", creature_pair.C), Start("1", astray)], creature_pair.fine)
@@ -622,14 +637,21 @@ def test_a_rival_whose_map_alone_is_better_is_refined_once_more(creature_pair, m
         "with_deformation_energy",
         lambda some, _proxies: [replace(c, deformation_energy=energies[c.name]) for c in some],
     )
-    repaired = []
+    repaired, alike, refined_again = [], [], search_module._refined_again
+    monkeypatch.setattr(
+        search_module,
+        "_refined_again",
+        lambda one, state: alike.append(one.name) or one if one is best else refined_again(one, state),
+    )
     monkeypatch.setattr(search_module, "_repaired", lambda one, _state: repaired.append(one.name) or one)
     assert [c.name for c in search_module._repair_rivals(state).ranked] == ["wrong", "a"]
     assert refined == [("rival", True)]
+    assert alike == [], "a rival far behind asks for nothing"
     assert repaired == ["a"], "the best of what refinement has led to"
     mended = replace(rival, name="c", quality=replace(less, reflection_error=0.0), deformation_energy=energy / 3)
     monkeypatch.setattr(search_module, "_repaired", lambda _one, _state: mended)
     assert [c.name for c in search_module._repair_rivals(state).ranked] == ["c", "wrong"]
+    assert alike == ["wrong"], "a close one is compared with the best refined alike"
     energies["a"] = energies["b"] = 9 * energy
     monkeypatch.setattr(search_module, "_repaired", lambda one, _state: one)
     assert search_module._repair_rivals(state) is state, "it stays as it is where that is better"
@@ -656,10 +678,12 @@ def test_a_rival_that_is_as_good_but_for_a_turned_limb_is_repaired(creature_pair
     assert not is_close_but_deformed(replace(deformed, deformation_energy=1.5 * energy), best)
     assert not is_close_but_deformed(replace(deformed, deformation_energy=None), best)
     state = _ranked_state(creature_pair, [best, deformed])
-    asked, repair_rivals = [], search_module._repair_rivals
+    asked, alike, repair_rivals = [], [], search_module._repair_rivals
     monkeypatch.setattr(search_module, "rerank_close", lambda order, _proxies: asked.append(order) or order)
+    monkeypatch.setattr(search_module, "_refined_again", lambda one, _state: alike.append(one.name) or one)
     monkeypatch.setattr(search_module, "_repaired", lambda _rival, _state: mended)
     assert [c.name for c in search_module._repair_rivals(state).ranked] == ["right", "mended"]
+    assert alike == ["right"]
     assert [[c.name for c in order] for order in asked] == [["right", "mended"]]
     monkeypatch.setattr(search_module, "_compare_exchanged", lambda state: state)
     monkeypatch.setattr(search_module, "refine_by_registration", lambda ranked, *_rest, **_: (ranked, ()))

@@ -22,6 +22,7 @@ from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.initial_maps import Start
 from kfmaps.matching.ranking import normalize_errors, reference_values, rerank_close
 from kfmaps.matching.registration_refine import refine_by_registration, with_shot_errors
+from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, max_landmark_error
 from kfmaps.matching.search_result import build_result
 from kfmaps.matching.search_state import SearchState
@@ -236,6 +237,21 @@ def test_shot_errors_are_asked_for_where_two_are_close(creature_pair, monkeypatc
         assert len(asked) == wanted  # not where the first would have to be better
         ranking.ranking(*arguments, least=first - 0.1)
         assert len(asked) == 2 * wanted
+
+
+@pytest.mark.parametrize(("factor", "registered"), [(1.0, 1), (SCORE.rotation_margin, 2)])
+def test_where_margins_count_less_candidates_farther_behind_are_registered(
+    creature_pair, monkeypatch, factor, registered
+):
+    best = score_maps([Start("best", creature_pair.C)], creature_pair.fine)[0]
+    away = (best.points + len(best.points) // 2) % len(best.points)
+    less = replace(best.quality, heat=best.quality.heat + 4.0 / SCORE.w_heat)
+    found = [best, replace(best, name="4 behind", points=away, quality=less)]
+    counts = []
+    monkeypatch.setattr(ranking, "with_deformation_energy", lambda near, _proxies: counts.append(len(near)) or [])
+    monkeypatch.setattr(SamplePair, "margin_factor", factor)
+    ranking.ranking(found, creature_pair.fine, creature_pair.proxies)
+    assert counts == [registered]
 
 
 def test_shot_errors_of_candidates_far_behind_are_not_computed(creature_pair):

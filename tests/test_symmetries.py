@@ -630,18 +630,23 @@ def test_exchanged_maps_are_refined_from_a_quarter_of_the_functions_on(symmetric
 
 
 def test_exchanged_limbs_are_found_out(symmetric, exchanged, monkeypatch):
-    monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", replace(SCORE, max_behind=99.0))
+    monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", replace(SCORE, max_exchange_behind=99.0))
     for begun in (symmetric.right, exchanged):
         order = compare_exchanged(begun, symmetric.fine, symmetric.proxies)
         assert len(order) == 2
         assert wrong_area(order[0], symmetric) < 0.03 < wrong_area(order[1], symmetric)
         assert order[0].score > order[1].score + SCORE.close_margin
     # Nearer than this it is no rival, unless it scores better.
-    few = replace(SCORE, max_behind=99.0, min_exchange_distance=1.0)
+    few = replace(SCORE, max_exchange_behind=99.0, min_exchange_distance=1.0)
     monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", few)
     assert compare_exchanged(symmetric.right, symmetric.fine, symmetric.proxies) == [symmetric.right]
     (mended,) = compare_exchanged(exchanged, symmetric.fine, symmetric.proxies)
     assert wrong_area(mended, symmetric) < 0.03
+    # Nor is it one farther behind, whatever its registration.
+    behind = symmetric.right.unregistered.score - max(c.score for c in exchange_limbs(symmetric.right, symmetric.fine))
+    for limit, count in ((behind - 0.1, 1), (behind + 0.1, 2)):
+        monkeypatch.setattr("kfmaps.matching.limb_exchange.SCORE", replace(SCORE, max_exchange_behind=limit))
+        assert len(compare_exchanged(symmetric.right, symmetric.fine, symmetric.proxies)) == count
 
 
 def test_pairs_of_exchanged_limbs_are_mended_one_after_the_other(symmetric, exchanged, monkeypatch):

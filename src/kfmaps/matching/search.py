@@ -348,6 +348,8 @@ def _repair_rivals(state: SearchState) -> SearchState:
     repaired = [_repaired_rival(c, best, state) for c in rest[:near]]
     if all(a is b for a, b in zip(repaired, rest, strict=False)):
         return state
+    if best.score - max(c.score for c in repaired) < SCORE.shot_margin:  # close ones are refined alike
+        best = _refined_again(best, state)
     order = by_preference([best, *repaired, *rest[near:]])
     if order[0].score - order[1].score < SCORE.shot_margin:
         order = rerank_close(order, proxies)
@@ -357,13 +359,18 @@ def _repair_rivals(state: SearchState) -> SearchState:
 def _repaired_rival(candidate: Candidate, best: Candidate, state: SearchState) -> Candidate:
     """Return a rival, repaired where only its registration puts it behind the best."""
     if candidate.quality.calibrated_score > best.quality.calibrated_score:
-        # The map alone is the better one: it is refined once more, since its registration may have begun badly.
-        again = refine_fine([candidate], state.samples, again=True)
-        registered = by_score(with_deformation_energy(again, state.proxies))[:1]
-        return by_score([candidate, *(_repaired_often(c, state) for c in registered)])[0]
+        # The map alone is the better one; its registration may have begun badly.
+        return _refined_again(candidate, state)
     if is_close_but_deformed(candidate, best, state.samples.fine.margin_factor):
         return _repaired_often(candidate, state)
     return candidate
+
+
+def _refined_again(candidate: Candidate, state: SearchState) -> Candidate:
+    """Return the better of a candidate and the same refined once more on the fine samples, registered and repaired."""
+    again = refine_fine([candidate], state.samples, again=True)
+    registered = by_score(with_deformation_energy(again, state.proxies))[:1]
+    return by_score([candidate, *(_repaired_often(c, state) for c in registered)])[0]
 
 
 def _result(state: SearchState, retries: tuple[Candidate | SwappedRepair, ...]) -> SearchResult:
@@ -380,10 +387,11 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     exchanged = _compare_exchanged(state)
     # Where the exchanged map is the better one it is compared with the rivals anew.
     state = exchanged if exchanged.ranked[0] is state.ranked[0] else _repair_rivals(exchanged)
-    if state.ranked[0].quality.calibrated_score >= SCORE.repair_score:
+    best = state.ranked[0]
+    if best.quality.calibrated_score >= SCORE.repair_score and not deforms_too_much(best):
         return state, ()
-    # No wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
-    is_sure = verdict(*calibrated_evidence(state, state.ranked[0], state.ranked[1:])) == "sure"
+    # One wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
+    is_sure = verdict(*calibrated_evidence(state, best, state.ranked[1:])) == "sure"
     ranked = state.ranked if is_sure else rerank_near_duplicates(state.ranked, state.candidates, samples, proxies)
     kept = state.landmarks[~state.rejected]
     ranked, retries = refine_by_registration(ranked, samples, proxies, kept, report, only_best=is_sure)
