@@ -46,6 +46,25 @@ MUTANTS = tuple(
         ("(away > _MAX_DEPTH)", "(away > 100 * _MAX_DEPTH)", "test_floor"),
         ("min(_MAX_AREA, lengths.max() ** 2 / (4 * np.pi))", "_MAX_AREA", "test_floor"),
         ("outer = used[is_outer[used]]", "outer = np.flatnonzero(is_outer)", "test_floor"),
+        # eigenfunctions on a coarse proxy
+        ("vectors.T @ (coarse_mass @ vectors))", "np.eye(k))", "test_coarse_basis"),
+        (
+            "smallest_eigenpairs(coarse, hats.T @ mass, k",
+            "smallest_eigenpairs(coarse, 1 + 0 * (hats.T @ mass), k",
+            "test_coarse_basis",
+        ),
+        ("len(faces)))[proxy.owner]", "len(faces)))[np.arange(n) % len(proxy.vertices)]", "test_coarse_basis"),
+        ("VERTICES_PER_FUNCTION * k)", "0 * k)", "test_coarse_basis -k larger_proxy"),
+        ("n > 2 * n_proxy_vertices(k)", "n > 3 * n_proxy_vertices(k)", "test_coarse_basis -k prepared"),
+        # candidates that are registered, refined and repaired
+        ("SCORE.max_behind / samples.margin_factor", "SCORE.max_behind", "test_registration_evidence -k farther"),
+        ("start.score - SCORE.max_exchange_behind", "start.score", "test_symmetries -k found_out"),
+        (
+            "SCORE.repair_score and not deforms_too_much(best)",
+            "SCORE.repair_score",
+            f"{ALTERNATE} -k deforms_the_shape",
+        ),
+        ("for c in repaired) < SCORE.shot_margin", "for c in repaired) < -99", f"{ALTERNATE} -k refined_once_more"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),
         ("is_inner[outer if is_box else inner]", "is_inner[inner]", "test_outer_surface -k box"),

@@ -150,7 +150,10 @@ def _mollify(corners: np.ndarray) -> np.ndarray:
 
 
 def laplace_operators(mesh: Mesh, laplacian: str, k: int) -> tuple[SparseMatrix, np.ndarray]:
-    """Return the weak Laplacian (n, n) and lumped mass (n,) of a cleaned mesh or cloud of more than ``k`` vertices."""
+    """Return the weak Laplacian (n, n) and lumped mass (n,) of a cleaned mesh or cloud of more than ``k`` vertices.
+
+    ``laplacian``: "robust" or "cotangent", as for :func:`laplace_basis`.
+    """
     if len(mesh.vertices) <= k:
         wanted = f"fewer eigenfunctions than the {len(mesh.vertices)} vertices in use"
         raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")

@@ -287,6 +287,6 @@ def _ascending(values: np.ndarray, vectors: np.ndarray, residuals: np.ndarray) -
 
 
 def turn_peaks_up(vectors: np.ndarray) -> np.ndarray:
-    """Turn the signs of columns in place so that the entry of largest magnitude of each is positive; return them."""
+    """Return ``vectors (n, k)`` with the entry of largest magnitude of each column positive; they change in place."""
     vectors[:, vectors.max(axis=0) < -vectors.min(axis=0)] *= -1.0
     return vectors
