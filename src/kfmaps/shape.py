@@ -61,7 +61,8 @@ class Shape:
     mesh : Mesh
         Scaled to unit area, vertices in the order given.
     basis : Basis
-        With as many functions as the configuration needs. Vertices on no surface, and all but the first of several in
+        With as many functions as the configuration needs; of a mesh of more than 60,000 vertices they are linear on a
+        coarse proxy (:mod:`kfmaps.geometry.coarse_basis`). Vertices on no surface, and all but the first of several in
         one place, have no area and the functions of the vertex that replaces them (:attr:`cleaned`).
     shot : (n, 352) float64, of a large shape float32, or None
         The SHOT descriptor, where the configuration has it; a point cloud has none.
