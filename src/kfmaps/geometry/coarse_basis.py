@@ -35,7 +35,7 @@ def coarse_basis(
     """Return about the first ``k`` eigenfunctions of a cleaned mesh, orthonormal in its area, and Ritz values.
 
     The parameters are those of :func:`kfmaps.geometry.basis.laplace_basis`. The values are upper bounds of the
-    eigenvalues: those of bodies by 1 % at most, those of skulls with thin walls by 3 to 10 % (research/speed.md).
+    eigenvalues, 2 % above them at most for bodies, and 11 % for skulls, whose walls are thin (research/speed.md).
     """
     stiffness, mass = laplace_operators(mesh, laplacian, k)
     hats = _hat_functions(mesh, coarse_proxy(mesh, spread_vertices(mesh, n_proxy_vertices(k))))
@@ -55,7 +55,8 @@ def _hat_functions(mesh: Mesh, proxy: CoarseProxy) -> csr_array:
     """Return the hat functions of the proxy's vertices at the vertices of the mesh, (n, q); rows sum to 1.
 
     Each vertex lies on the closest of the faces around the proxy's vertex that is nearest along the surface, so that no
-    function leaps from one wall to another.
+    function leaps from one wall to another. A hat function that is zero everywhere, as of a vertex of a degenerate
+    face, is left out.
     """
     faces, n = proxy.mesh.faces, len(mesh.vertices)
     corners = np.ones(faces.size), (faces.ravel(), np.repeat(np.arange(len(faces)), 3))
@@ -64,4 +65,4 @@ def _hat_functions(mesh: Mesh, proxy: CoarseProxy) -> csr_array:
     places = closest_among(mesh.vertices, proxy.mesh.vertices, faces, around.indices.astype(np.int64), owner)
     hats = barycentric_matrix(places.faces, places.weights, faces, len(proxy.vertices))
     hats.eliminate_zeros()
-    return hats
+    return hats[:, np.unique(hats.indices)]
