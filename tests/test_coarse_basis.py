@@ -81,6 +81,14 @@ def test_a_bridge_without_faces_on_the_proxy_still_connects(mesh: Mesh) -> None:
 
 
 @pytest.mark.usefixtures("few")
+def test_of_a_mesh_whose_proxy_has_hardly_a_face_the_functions_are_exact() -> None:
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]) + 3 * np.arange(1000)[:, None, None]
+    loose = unit_area(Mesh(corners.reshape(-1, 3), np.arange(3000).reshape(-1, 3)))
+    found, exact = coarse_basis(loose, 5, "cotangent", 1e-2), laplace_basis(loose, 5, "cotangent", tolerance=1e-2)
+    np.testing.assert_array_equal(found.functions, exact.functions)
+
+
+@pytest.mark.usefixtures("few")
 def test_functions_do_not_leap_from_one_wall_to_another(mesh: Mesh) -> None:
     """Two surfaces nearer to each other than the vertices of the proxy have functions of their own."""
     pair = unit_area(joined(mesh, Mesh(mesh.vertices * 0.995 + 1e-3, mesh.faces)))

@@ -14,7 +14,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import blocks
-from kfmaps.geometry.basis import Basis, laplace_operators
+from kfmaps.geometry.basis import Basis, laplace_basis, laplace_operators
 from kfmaps.geometry.closest_points import barycentric_matrix, closest_among
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs, turn_peaks_up
@@ -36,9 +36,13 @@ def coarse_basis(
 
     The parameters are those of :func:`kfmaps.geometry.basis.laplace_basis`. The values are upper bounds of the
     eigenvalues, 2 % above them at most for bodies, and 11 % for skulls, whose walls are thin (research/speed.md).
+    Those of the mesh itself are returned where its proxy loses most vertices, as that of loose triangles does.
     """
+    proxy = coarse_proxy(mesh, spread_vertices(mesh, n_proxy_vertices(k)))
+    if len(proxy.vertices) < n_proxy_vertices(k) / 2:
+        return laplace_basis(mesh, k, laplacian, progress=progress, tolerance=tolerance)
     stiffness, mass = laplace_operators(mesh, laplacian, k)
-    hats = _hat_functions(mesh, coarse_proxy(mesh, spread_vertices(mesh, n_proxy_vertices(k))))
+    hats = _hat_functions(mesh, proxy)
     coarse = csr_array(hats.T @ csr_array(stiffness @ hats))
     vectors = smallest_eigenpairs(coarse, hats.T @ mass, k, tolerance=tolerance, progress=progress).vectors
     # The solver takes a diagonal mass, so its functions are corrected within their span.
