@@ -34,9 +34,11 @@ def coarse_basis(
 ) -> Basis:
     """Return about the first ``k`` eigenfunctions of a cleaned mesh, orthonormal in its area, and Ritz values.
 
-    The parameters are those of :func:`kfmaps.geometry.basis.laplace_basis`. The values are upper bounds of the
-    eigenvalues, 2 % above them at most for bodies, and 11 % for skulls, whose walls are thin (research/speed.md).
-    Those of the mesh itself are returned where its proxy loses most vertices, as that of loose triangles does.
+    The values are upper bounds of the eigenvalues, 2 % above them at most for bodies, and 11 % for skulls, whose walls
+    are thin (research/speed.md). Those of the mesh itself are returned where its proxy loses most vertices, as that of
+    loose triangles does.
+
+    ``k``, ``laplacian``, ``tolerance`` and ``progress``: as for :func:`kfmaps.geometry.basis.laplace_basis`.
     """
     proxy = coarse_proxy(mesh, spread_vertices(mesh, n_proxy_vertices(k)))
     if len(proxy.vertices) < n_proxy_vertices(k) / 2:
