@@ -60,10 +60,11 @@ MUTANTS = tuple(
         ("SCORE.max_behind / samples.margin_factor", "SCORE.max_behind", "test_registration_evidence -k farther"),
         ("start.score - SCORE.max_exchange_behind", "start.score", "test_symmetries -k found_out"),
         (
-            "SCORE.repair_score and not deforms_too_much(best)",
-            "SCORE.repair_score",
+            "if is_good and not deforms_too_much(best)",
+            "if is_good",
             f"{ALTERNATE} -k deforms_the_shape",
         ),
+        ("calibrated_score < quality - SCORE.close_margin", "calibrated_score < -99", "test_extremities -k unasked"),
         ("for c in repaired) < SCORE.shot_margin", "for c in repaired) < -99", f"{ALTERNATE} -k refined_once_more"),
         # holes
         ("a * b - (a + b - base) ** 2", "a * b - (a - b - base) ** 2", "test_holes"),

@@ -30,7 +30,6 @@ from kfmaps.matching.initial_maps import extremity_inits
 from kfmaps.matching.quality import mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, by_preference, ranking
 from kfmaps.matching.sample_pair import paired_map, two_level_samples
-from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import find_self_maps
 from kfmaps.registration.alternating_registration import proxy_pair
@@ -273,7 +272,7 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     preserving = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="preserving"))
     kept = search_map(source, mirrored, preserving, rng=0)
     assert kept.orientation == "preserving"
-    assert kept.scores[0] < found.scores[0] - SCORE.mirror_margin
+    assert kept.verdict != "sure"
 
 
 def test_a_proxy_that_falls_apart_says_nothing_about_the_map(creature, shape_samples, monkeypatch):

@@ -387,14 +387,17 @@ def _improve_best(state: SearchState, report: Progress) -> tuple[SearchState, tu
     exchanged = _compare_exchanged(state)
     # Where the exchanged map is the better one it is compared with the rivals anew.
     state = exchanged if exchanged.ranked[0] is state.ranked[0] else _repair_rivals(exchanged)
-    best = state.ranked[0]
-    if best.quality.calibrated_score >= SCORE.repair_score and not deforms_too_much(best):
+    best, quality = state.ranked[0], state.ranked[0].quality.calibrated_score
+    is_good = quality >= SCORE.repair_score
+    if is_good and not deforms_too_much(best):
         return state, ()
     # One wrong map has been "sure" before repairs, and repairs of others have hardly changed one that is.
     is_sure = verdict(*calibrated_evidence(state, best, state.ranked[1:])) == "sure"
     ranked = state.ranked if is_sure else rerank_near_duplicates(state.ranked, state.candidates, samples, proxies)
     kept = state.landmarks[~state.rejected]
     ranked, retries = refine_by_registration(ranked, samples, proxies, kept, report, only_best=is_sure)
+    if is_good and ranked[0].quality.calibrated_score < quality - SCORE.close_margin:
+        return state, ()  # of a body and its mirror image what deforms less keeps distances less well
     return replace(state, ranked=ranked), retries
 
 
