@@ -414,7 +414,7 @@ def test_a_registered_part_lies_on_the_given_whole(small, monkeypatch, orientati
     def place(task, **_):
         registered: Any = SimpleNamespace(scale=1.0, vertices=task.whole.vertices)
         overlap: Any = SimpleNamespace(part=all_, whole=all_, on_whole=places, on_part=places)
-        return PlacedPart(registered, overlap, (30.0,), 9.0, task.whole.vertices)
+        return PlacedPart(registered, overlap, (30.0,), 9.0, task.whole.vertices, PART)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
     task = task_of(small, small, NO_LANDMARKS, reversing(SMALL, orientation))

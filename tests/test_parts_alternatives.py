@@ -345,9 +345,15 @@ def test_landmarks_that_a_placement_contradicts_are_left_out_where_the_others_sc
         off[wrong if len(asked) == 1 else then] = 1.01 * SCORE.part.max_landmark_error
         moved = whole.vertices + off * [1.0, 0.0, 0.0]
         score = first if len(asked) == 1 else second
-        return SimpleNamespace(unguided=moved, scores=(score,), margin=9.0, registration=SimpleNamespace(scale=scale))
+        return SimpleNamespace(
+            unguided=moved,
+            scores=(score,),
+            margin=9.0,
+            registration=SimpleNamespace(scale=scale),
+            calibration=SCORE.part.calibration,
+        )
 
-    found, errors = _place_by_landmarks(place_with, pairs, whole, SCORE.part.calibration, two=False)
+    found, errors = _place_by_landmarks(place_with, pairs, whole, two=False)
     assert asked == [[0, 1, 2]] + ([] if others is None else [others])
     assert found.scores[0] == (second if again else first)
     assert np.flatnonzero(errors > SCORE.part.max_landmark_error).tolist() == (then if again else wrong)
@@ -439,7 +445,7 @@ def pair(monkeypatch: pytest.MonkeyPatch) -> PartPair:
         between = np.abs(line[:, :1] - line[:, 0]).astype(np.float32) / np.float32(scale)
         sides.append(PartSamples(mesh, np.arange(5), between, boundary))
     monkeypatch.setattr(PartSamples, "shot", lambda *_: np.ones((5, 1), dtype=np.float32))
-    return PartPair(*sides, small_scale=SCALE)
+    return PartPair(*sides, file_scale=SCALE)
 
 
 def test_shot_counts_as_far_as_its_ball_fits(pair: PartPair) -> None:
@@ -454,7 +460,7 @@ def test_similarities_of_a_small_part_alone_are_weighted(pair: PartPair) -> None
     for params in TRIALS[:2]:
         weights = pair.shot_weights(SCALE, max(params.radii))
         np.testing.assert_allclose(shot_similarity(pair, SCALE, params), np.tile(weights, (5, 1)).T)
-        assert (shot_similarity(replace(pair, small_scale=None), SCALE, params) == 1.0).all()
+        assert (shot_similarity(replace(pair, file_scale=None), SCALE, params) == 1.0).all()
 
 
 def test_ranks_of_a_small_part_are_weighted_by_squares(pair: PartPair) -> None:
@@ -462,7 +468,7 @@ def test_ranks_of_a_small_part_are_weighted_by_squares(pair: PartPair) -> None:
     start = Placement(SCALE, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), similarity)
     ranks = np.log((5 - np.arange(5)) / 5)
     for one, wanted in (
-        (place_all(replace(pair, small_scale=None), start), ranks.mean()),
+        (place_all(replace(pair, file_scale=None), start), ranks.mean()),
         (place_all(pair, start), (WEIGHTS**2 * ranks).sum() / (WEIGHTS**2).sum()),
     ):
         output = replace(one, placed=replace(one.placed, match=np.arange(5))).evidence
@@ -489,7 +495,7 @@ def test_a_candidate_knows_its_scale_against_the_file(monkeypatch: pytest.Monkey
         one = replace(start, scale=scale)
         changed = candidates.make_candidate(one, pair).evidence.scale_change
         assert changed == pytest.approx(abs(np.log(scale / SCALE)))
-        evidence = candidates.make_candidate(one, replace(pair, small_scale=None)).evidence
+        evidence = candidates.make_candidate(one, replace(pair, file_scale=None)).evidence
         assert (evidence.scale_change, evidence.doubled_area) == (0.0, 0.25)
 
 
@@ -506,7 +512,7 @@ def test_the_scan_of_one_camera_is_small_only_if_its_file_says_so(of_file, scale
         places=SimpleNamespace(points=np.eye(5)),
     )
     placement = Placement(scale, TRIALS[0], Assignment(np.arange(5), np.ones(5), 1.0), np.eye(5))
-    view = replace(pair, is_one_view=True, small_scale=of_file)
+    view = replace(pair, is_one_view=True, file_scale=of_file)
     found = candidates._measure_candidate(placement, registered, view)
     assert found.evidence.scale_change == pytest.approx(abs(np.log(scale / usual)))
 
@@ -622,7 +628,7 @@ def test_the_placement_at_the_scale_of_the_files_is_not_tried_again(
         (9.0, 0.9, False, 96, 9.0, False, False),
         (-0.1, 0.9, False, 100, 9.0, False, False),
         (9.0, 0.49, False, 100, 9.0, False, False),
-        (9.0, 0.9, True, 100, 9.0, False, False),
+        (9.0, 0.9, True, 100, 9.0, False, True),  # two parts are never "sure"
         (9.0, 0.9, False, 100, 0.5, True, True),  # an alternative is nearly as good
         (9.0, 0.9, False, 96, 0.5, False, True),
     ],
@@ -644,11 +650,12 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
             score=SCORE.part.early_exit_score + score,
             scale=scale,
             registration=SimpleNamespace(scale=scale),
+            evidence=PartEvidence(0.8, -4.0),
             placed=SimpleNamespace(match=match, support=1.0),
         )
         for match in (each, np.where(each < agree, each, (each + 50) % 100))
     )
-    likely = SimpleNamespace(scale=1.0, score=SCORE.part.early_exit_score)
+    likely = SimpleNamespace(scale=1.0, score=SCORE.part.early_exit_score, evidence=PartEvidence(0.8, -4.0))
     scales_tried: list[list[float]] = []
     grown: list[Any] = []
 
@@ -672,6 +679,8 @@ def test_the_search_ends_where_the_best_supported_placement_of_a_large_part_is_c
         fixed_scale=False,
         both_partial=both,
         small_scale=None,
+        file_scale=None,
+        is_one_view=False,
         whole=SimpleNamespace(distances=line),
         part=SimpleNamespace(n_landmarks=0),
     )

@@ -59,7 +59,7 @@ PART_WEIGHTS = {
     "w_similarity_rank": 2.0,
     "w_overlap_rank": -4.0 * 0.3,
     "w_gap": -50.0 * 0.01,
-    "w_scale": -1.5 * 0.25,
+    "w_scale": -3.0 * (0.13 / 0.47) ** 2,
     "w_flipped": -4.0 * 0.1,
     "w_doubled": -10.0 * 0.03,
     "w_deformation": -3.0 * np.log(0.025),
@@ -99,7 +99,7 @@ def test_the_tables_name_all_weights() -> None:
 
 def test_costs_of_a_part_are_bounded_and_landmarks_cost_more_of_two() -> None:
     assert part_score(replace(PART, landmark_cost=0.0)) - part_score(PART) == 2.0
-    assert part_score(replace(PART, scale_change=0.26)) == part_score(replace(PART, scale_change=9.0))  # at most
+    assert part_score(replace(PART, scale_change=0.47)) == part_score(replace(PART, scale_change=9.0))  # at most
     assert [part_landmark_cost(np.array([0.11, 0.09, 0.3]), two) for two in (False, True)] == [2.0, 6.0]
 
 
@@ -118,7 +118,7 @@ def test_unknown_evidence_costs_nothing() -> None:
     plain = replace(CANDIDATE.unregistered, landmark_errors=np.zeros(0))
     assert all(getattr(plain, name) is None for name in REGISTERED)
     assert candidate_score(plain) == pytest.approx(QUALITY.score - 8 * 0.3)
-    assert placement_score(PART) == pytest.approx(4 * 0.8 + 2)
+    assert placement_score(replace(PART, scale_change=0.0)) == pytest.approx(4 * 0.8 + 2)
 
 
 CALIBRATIONS = pytest.mark.parametrize(

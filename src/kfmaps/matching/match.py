@@ -300,7 +300,7 @@ def _is_smaller_in_files(part: Match | None, task: MatchTask) -> TypeGuard[Match
     if part is None or ratio is None or scale is None:
         return False
     ratio = ratio if part.partial.which == "target" else 1 / ratio
-    return ratio < 1 and abs(math.log(scale / ratio)) < SCORE.part.other_scale
+    return ratio < 1 and abs(math.log(scale / ratio)) < SCORE.part.in_unit
 
 
 def _is_fragment(part: Match | None, task: MatchTask) -> TypeGuard[Match]:

@@ -81,6 +81,12 @@ class PartScoring:
     are never "sure" without landmarks: wrong placements have scored 19.6."""
     calibration_of_view: Calibration = field(default_factory=lambda: _part_calibration(1 / 0.43, 16.2, tie=1.6))
     """The same for scans of one camera, whose wrong placements have had a margin of 2.2."""
+    calibration_in_unit: Calibration = field(
+        default_factory=lambda: replace(_part_calibration(1 / 0.43, 16.2), steep_slope=0.8, steep_middle=13.0)
+    )
+    """The same for parts that lie at the scale of the files, of which few are wrong above a score of 14."""
+    in_unit: float = 0.26
+    """:attr:`PartEvidence.scale_change` up to which a part lies at the scale of the files: a factor of 1.3."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
     w_pair_consistency: float = 12.0
@@ -103,9 +109,9 @@ class PartScoring:
     w_deformation: float = 3.0
     """Weight of the logarithm of the deformation energy. A half of a body placed on the other half, front to back,
     differs from the right placement in nothing else."""
-    w_scale: float = 1.5
+    w_scale: float = 3.0
     """Largest cost of the scale of a small part: a part that shrinks fits nearly everywhere."""
-    other_scale: float = 0.26
+    other_scale: float = 0.47
     """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.3. Right parts have up to
     1.16 from one person to another."""
     full_view_scale: float = 0.45
@@ -121,6 +127,9 @@ class PartScoring:
     """Score behind the best from which a placement is not refined: refinement has gained at most 2.3."""
     early_exit_score: float = 17.5
     """Score of the best supported placement from which no other is looked for but its alternatives."""
+    early_exit_in_unit: float = 14.0
+    """The same of a part at the scale of the files: of 60 with this score and the agreement below one was 19.9 off, and
+    that would be "sure" otherwise, too (research/parts.md)."""
     early_exit_agreement: float = 0.97
     """Share of the samples on which another relaxation must agree with it: right ones have 0.973 and more, those with a
     limb elsewhere up to 0.963 (research/parts.md)."""
@@ -454,7 +463,13 @@ def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) 
 
 def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
     """Return the part of :func:`part_score` that needs no registration."""
-    return numbers.w_consistency * evidence.consistency - numbers.w_similarity_rank * evidence.similarity_rank
+    score = numbers.w_consistency * evidence.consistency - numbers.w_similarity_rank * evidence.similarity_rank
+    return score - scale_cost(evidence, numbers)
+
+
+def scale_cost(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
+    """Return the cost of a scale that is not the one of the files."""
+    return numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
 
 
 def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
@@ -463,7 +478,6 @@ def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> flo
     score -= numbers.w_flipped * evidence.flipped_area + numbers.w_doubled * evidence.doubled_area
     score += numbers.w_pair_consistency * (evidence.pair_consistency - numbers.usual_pair_consistency)
     score -= numbers.w_overlap_rank * (evidence.overlap_rank - numbers.usual_overlap_rank)
-    score -= numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
     score -= evidence.landmark_cost
     deformation = math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
     return score + numbers.w_deformation * -deformation

@@ -9,7 +9,6 @@ each of its regions, since a limb may lie on another (research/body-model.md).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -73,10 +72,7 @@ def _measure_candidate(placement: Placement, found: PartRegistration, pair: Part
         doubled_area=found.doubled_area,
         landmark_cost=part_landmark_cost(errors, pair.both_partial),
     )
-    usual = pair.small_scale or (SCORE.part.full_view_scale if pair.is_one_view else None)
-    is_full_view = pair.is_one_view and placement.scale > SCORE.part.full_view_scale
-    if usual is not None and not is_full_view:
-        evidence = replace(evidence, scale_change=abs(math.log(placement.scale / usual)))
+    evidence = replace(evidence, scale_change=pair.scale_change(placement.scale))
     if pair.both_partial:
         agreement, rank = overlap_evidence(found, pair)
         evidence = replace(evidence, pair_consistency=agreement, overlap_rank=rank, doubled_area=0.0)

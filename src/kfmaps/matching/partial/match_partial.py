@@ -19,7 +19,7 @@ from kfmaps.matching.partial.place_part import PartTask, PlacedPart, place_part
 from kfmaps.matching.partial.registration import scale_mesh
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchPart, MatchRegistration, MatchScore
-from kfmaps.matching.score import SCORE, Calibration, landmark_support, part_landmark_cost, probability, verdict
+from kfmaps.matching.score import SCORE, landmark_support, part_landmark_cost, probability, verdict
 from kfmaps.matching.self_maps import self_images
 from kfmaps.shape import Shape
 
@@ -65,8 +65,7 @@ def match_partial(
         may_be_mirrored=search is not None and search.orientation == "auto",
     )
     place_with = partial(place_part, placing, progress=lambda done: task.clock.report("parts", done))
-    numbers = placing.calibration
-    found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, numbers, which == "both")
+    found, errors = _place_by_landmarks(place_with, landmarks, whole.mesh, which == "both")
     overlap, scale = found.overlap, found.registration.scale
     scaled = scale_mesh(part.mesh, scale)
     if is_target:
@@ -78,7 +77,7 @@ def match_partial(
     areas = mass_p * overlap.part
     distances = scale * geodesic_distances(part.mesh, landmarks[:, 0]) if len(landmarks) else np.zeros((0, len(areas)))
     registered = found.registration.vertices * (MIRROR if orientation == "reversing" else 1)
-    calibrated = found.scores[0], found.margin, None, landmark_support(errors, distances, areas), numbers
+    calibrated = found.scores[0], found.margin, None, landmark_support(errors, distances, areas), found.calibration
     match = task.result(
         points,
         _slanted_functional_map(points, source, target, scale if is_target else 1 / scale),
@@ -108,12 +107,12 @@ def file_ratio(source: Shape, target: Shape) -> float | None:
 
 
 def _place_by_landmarks(
-    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, numbers: Calibration, two: bool
+    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh, two: bool
 ) -> tuple[PlacedPart, np.ndarray]:
     """Return a placement, and its errors, (l,), at the landmarks ``pairs (l, 2)`` when these take no part in it.
 
     A placement that contradicts some landmarks is compared with one by the others. Where it contradicts most, or where
-    the part fits nowhere with them by the ``numbers`` of its verdict, it is compared with one without landmarks. The
+    the part fits nowhere with them, it is compared with one without landmarks. The
     better score decides, less a cost for each contradicted landmark, which is higher for ``two`` parts: so right
     landmarks are not dropped for a slightly better score. A placement without landmarks that has shrunk to the least
     scale never wins: it fits nearly everywhere.
@@ -124,7 +123,7 @@ def _place_by_landmarks(
 
     found = place_with(landmarks=pairs)
     is_wrong = errors(found) > SCORE.part.max_landmark_error
-    fits_nowhere = verdict(found.scores[0], found.margin, numbers=numbers) == "unlikely"
+    fits_nowhere = verdict(found.scores[0], found.margin, numbers=found.calibration) == "unlikely"
     if len(pairs) and (fits_nowhere or is_wrong.any()):
         others = pairs[:0] if fits_nowhere or is_wrong.mean() > 0.5 else pairs[~is_wrong]
         other = place_with(landmarks=others, progress=None)

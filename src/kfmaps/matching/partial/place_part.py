@@ -51,7 +51,7 @@ from kfmaps.matching.partial.scale_search import (
     search_scale,
     try_scales,
 )
-from kfmaps.matching.score import SCORE, Calibration, by_score, select_distinct, verdict
+from kfmaps.matching.score import SCORE, Calibration, by_score, scale_cost, select_distinct, verdict
 
 _PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a coarse proxy is placed, and of the proxy
 _MIN_SCALE_RATIO = 1.12  # ratio of two scales from which both are tried
@@ -67,10 +67,11 @@ class PlacedPart:
 
     registration: PartRegistration
     overlap: Overlap
-    # Of all candidates, the best first, as if the landmarks that it contradicts had not been given.
+    # Of all candidates, the best first, as if nothing were known that it contradicts: landmarks, and the files' unit.
     scores: tuple[float, ...]
     margin: float  # over the best candidate that places the part elsewhere
     unguided: np.ndarray  # (n_p, 3): the part's vertices after a registration without landmarks
+    calibration: Calibration  # the numbers of the verdict
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,13 +99,6 @@ class PartTask:
         """Whether the part is the scan of one camera (:mod:`kfmaps.matching.partial.one_view`)."""
         return not self.both_partial and is_view_of(self.part, self.whole)
 
-    @property
-    def calibration(self) -> Calibration:
-        """The numbers of the verdict."""
-        if self.both_partial:
-            return SCORE.part.calibration_of_two
-        return SCORE.part.calibration_of_view if self.is_one_view else SCORE.part.calibration
-
 
 def place_part(
     task: PartTask, landmarks: np.ndarray | None = None, progress: Callable[[float], None] | None = None
@@ -126,11 +120,11 @@ def place_part(
         part_samples(proxy.mesh, count, proxy.owner[vertices], task.rng)
         for proxy, count, vertices in zip(proxies, counts, pairs.T, strict=True)
     ]
-    small_scales = (0.25, 0.5)  # by the files, between which a part is a small one, below a quarter of the area
-    small = None if both_partial or ratio is None or not small_scales[0] < ratio < small_scales[1] else ratio
+    one_unit = (0.25, 1.1)  # scales of a part by the files, between which these are likely to be in one unit
+    in_files = None if both_partial or ratio is None or not one_unit[0] < ratio < one_unit[1] else ratio
     on_whole = proxies[1].vertices[samples[1].samples]
     find_images = None if task.self_images is None else partial(task.self_images, on_whole, turned=task.is_one_view)
-    pair = PartPair(samples[0], samples[1], fixed, both_partial, small, task.is_one_view, find_images)
+    pair = PartPair(samples[0], samples[1], fixed, both_partial, in_files, task.is_one_view, find_images)
     report(0.15)
     found = _search_placements(pair, task, report)
     report(0.75)
@@ -139,12 +133,12 @@ def place_part(
     if any(len(proxy.vertices) < len(mesh.vertices) for proxy, mesh in zip(proxies, (part, whole), strict=True)):
         on = PartSurface(whole)
         last = refine_registration(last, proxies[0], part, on, pairs)
-    paid = found[0].evidence.landmark_cost
+    paid = found[0].evidence.landmark_cost + scale_cost(found[0].evidence)
     lead, scores = margin(found, len(pairs)), [one.score + paid for one in found]
     image = _find_better_mirrored(found[0], pair) if task.may_be_mirrored else None
     if image is not None:
         lead, scores = 0.0, [scores[0], image.score + paid, *scores[1:]]
-    return PlacedPart(last, find_overlap(last, on), tuple(scores), lead, unguided)
+    return PlacedPart(last, find_overlap(last, on), tuple(scores), lead, unguided, _calibration(found[0], pair))
 
 
 def same_units(scale: str, ratio: float | None, both_partial: bool) -> bool:
@@ -175,7 +169,7 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
         supported = try_scales(pair, some)
         found = [] if supported[0].scale in tried else _clear_placements(pair, supported[0])
         if found:
-            return _regrow_unsure(found, pair, task)
+            return _regrow_unsure(found, pair)
     if supported[0].scale ** 2 >= task.clear_area:
         raise GivenUp
     min_support = 0.9  # of a placement that may become the best, over that of the best supported one
@@ -190,13 +184,35 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
     known = scales[0] if pair.fixed_scale and pair.both_partial else pair.small_scale
     found += [] if known is None else candidates_at_scale(pair, known)
     report(0.65)
-    return _regrow_unsure(compare_alternatives(found, pair), pair, task)
+    return _regrow_unsure(compare_alternatives(found, pair), pair)
 
 
-def _regrow_unsure(order: list[PartCandidate], pair: PartPair, task: PartTask) -> list[PartCandidate]:
+def _regrow_unsure(order: list[PartCandidate], pair: PartPair) -> list[PartCandidate]:
     """Return ``order`` where its first candidate would be called "sure", else also what grows from it."""
-    is_sure = verdict(order[0].score, margin(order, pair.part.n_landmarks), numbers=task.calibration) == "sure"
-    return order if is_sure else regrow_best(order, pair)
+    best, lead = order[0], margin(order, pair.part.n_landmarks)
+    word = verdict(_told_score(best), lead, numbers=_calibration(best, pair))
+    return order if word == "sure" else regrow_best(order, pair)
+
+
+def _told_score(one: PartCandidate) -> float:
+    """Return the score of a candidate as if the files said nothing of its scale: it may be in another unit."""
+    return one.score + scale_cost(one.evidence)
+
+
+def _is_in_unit(one: PartCandidate, pair: PartPair) -> bool:
+    """Return whether a candidate lies at the scale of the files, which are in one unit then."""
+    is_known = pair.file_scale is not None and not pair.is_one_view
+    return is_known and one.evidence.scale_change <= SCORE.part.in_unit
+
+
+def _calibration(best: PartCandidate, pair: PartPair) -> Calibration:
+    """Return the numbers of the verdict of the ``best`` placement."""
+    numbers = SCORE.part
+    if pair.both_partial:
+        return numbers.calibration_of_two
+    if pair.is_one_view:
+        return numbers.calibration_of_view
+    return numbers.calibration_in_unit if _is_in_unit(best, pair) else numbers.calibration
 
 
 def _find_better_mirrored(best: PartCandidate, pair: PartPair) -> PartCandidate | None:
@@ -222,7 +238,8 @@ def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidat
         return []
     placement = refine_placement(pair, placement)
     found, numbers = make_candidate(placement, pair), SCORE.part
-    if found.score < numbers.early_exit_score or found.registration.scale**2 < numbers.full_area:
+    least = numbers.early_exit_in_unit if _is_in_unit(found, pair) else numbers.early_exit_score
+    if _told_score(found) < least or found.registration.scale**2 < numbers.full_area:
         return []
     other = fit_scale(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
     apart = pair.whole.distances[placement.placed.match, other.placed.match]

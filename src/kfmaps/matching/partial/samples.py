@@ -17,6 +17,7 @@ from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, mirror_mesh, surface_area, vertex_areas
 from kfmaps.matching.partial.one_view import views
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, RelaxationParams, consistency, distance_bounds
+from kfmaps.matching.score import SCORE
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
 _SUPPORT = 10_000
@@ -100,7 +101,7 @@ class PartPair:
     whole: PartSamples
     fixed_scale: bool = False  # whether the scale of the part is known
     both_partial: bool = False  # whether the whole may lack something too
-    small_scale: float | None = None  # √area of a small part over that of the whole in their files
+    file_scale: float | None = None  # √area of the part over that of the whole, if their files may be in one unit
     is_one_view: bool = False  # whether the part is the scan of one camera
     find_self_images: Callable[[], np.ndarray] | None = None  # returns :attr:`self_images`
 
@@ -109,6 +110,19 @@ class PartPair:
         """The images of the whole's samples by its near-symmetries, (m, q): numbers of samples."""
         none = np.zeros((0, len(self.whole.samples)), dtype=np.int64)
         return none if self.find_self_images is None else self.find_self_images()
+
+    @property
+    def small_scale(self) -> float | None:
+        """The scale of a small part, below a quarter of the area, by the files."""
+        return self.file_scale if self.file_scale is not None and self.file_scale < 0.5 else None
+
+    def scale_change(self, scale: float) -> float:
+        """Return the absolute logarithm of a ``scale`` over the one that is usual; 0 where none is."""
+        full_view = SCORE.part.full_view_scale
+        if self.is_one_view:
+            usual = self.small_scale or full_view
+            return 0.0 if scale > full_view else abs(math.log(scale / usual))
+        return 0.0 if self.file_scale is None else abs(math.log(scale / self.file_scale))
 
     @property
     def unmarked(self) -> PartPair:

@@ -42,6 +42,7 @@ class Placement:
     placed: Assignment
     similarity: np.ndarray  # (q, m): products of descriptors
     weights: np.ndarray | None = None  # (q,): of the samples in :attr:`PartEvidence.similarity_rank`
+    scale_change: float = 0.0  # see :class:`PartEvidence`
 
     @property
     def evidence(self) -> PartEvidence:
@@ -50,7 +51,7 @@ class Placement:
         own = self.similarity[np.arange(len(match)), match]
         n_better = (self.similarity > own[:, None]).sum(axis=1)
         rank = float(np.average(np.log((n_better + 1) / self.similarity.shape[1]), weights=self.weights))
-        return PartEvidence(self.placed.support, rank)
+        return PartEvidence(self.placed.support, rank, scale_change=self.scale_change)
 
     @property
     def score(self) -> float:
@@ -153,7 +154,7 @@ def place_all(pair: PartPair, one: Placement) -> Placement:
         trust = consistent_trust(*pair.pair_consistency(one.scale, placed.match), placed.trust, n_landmarks)
         placed = replace(placed, trust=placed.trust * trust)
     weights = None if pair.small_scale is None else pair.shot_weights(one.scale, max(TRIALS[0].radii)) ** 2
-    return replace(one, placed=placed, weights=weights)
+    return replace(one, placed=placed, weights=weights, scale_change=pair.scale_change(one.scale))
 
 
 def refine_placement(pair: PartPair, one: Placement) -> Placement:
