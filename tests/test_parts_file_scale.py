@@ -79,6 +79,8 @@ def test_a_part_at_the_scale_of_the_files_is_more_likely_right() -> None:
     near, far = candidate(scale_change=0.25), candidate(scale_change=0.27)
     numbers = SCORE.part.calibration_in_unit
     assert place_part._calibration(near, known) is numbers
+    two = SimpleNamespace(**{**vars(known), "both_partial": True})
+    assert place_part._calibration(near, two) is SCORE.part.calibration_of_two
     for one, what in (
         (far, {}),
         (near, {"file_scale": None}),
@@ -99,3 +101,29 @@ def test_a_part_at_the_scale_of_the_files_is_more_likely_right() -> None:
     usual = [probability(s, 9.0, numbers=SCORE.part.calibration) for s in scores]
     assert all(b >= u for b, u in zip(better, usual, strict=True))
     assert all(b < SCORE.calibration.sure for b, u in zip(better, usual, strict=True) if u < SCORE.calibration.sure)
+
+
+@pytest.mark.parametrize(
+    ("file_scale", "told", "clear"), [(0.7, 14.1, True), (0.7, 13.9, False), (None, 14.1, False), (None, 17.6, True)]
+)
+def test_less_of_a_score_is_asked_for_at_the_scale_of_the_files(
+    monkeypatch: pytest.MonkeyPatch, file_scale: float | None, told: float, clear: bool
+) -> None:
+    """Where a second relaxation confirms the placement."""
+    evidence = replace(PART, scale_change=0.2)
+    placed = SimpleNamespace(match=np.zeros(5, dtype=int))
+    one = SimpleNamespace(
+        scale=0.7,
+        score=told - scale_cost(evidence),
+        evidence=evidence,
+        registration=SimpleNamespace(scale=0.7),
+        placed=placed,
+    )
+    for name in ("refine_placement", "fit_scale"):
+        monkeypatch.setattr(place_part, name, lambda _pair, placement: placement)
+    monkeypatch.setattr(place_part, "make_candidate", lambda placement, _pair: placement)
+    monkeypatch.setattr(place_part, "try_scales", lambda *_: [one])
+    monkeypatch.setattr(place_part, "compare_alternatives", lambda found, _pair: found)
+    whole = SimpleNamespace(distances=np.zeros((5, 5)))
+    given: Any = SimpleNamespace(both_partial=False, is_one_view=False, file_scale=file_scale, whole=whole)
+    assert place_part._clear_placements(given, one) == ([one] if clear else [])
