@@ -79,15 +79,16 @@ def test_a_part_at_the_scale_of_the_files_is_more_likely_right() -> None:
     near, far = candidate(scale_change=0.25), candidate(scale_change=0.27)
     numbers = SCORE.part.calibration_in_unit
     assert place_part._calibration(near, known) is numbers
-    two = SimpleNamespace(**{**vars(known), "both_partial": True})
+    two: Any = SimpleNamespace(**{**vars(known), "both_partial": True})
     assert place_part._calibration(near, two) is SCORE.part.calibration_of_two
-    for one, what in (
+    changes: list[tuple[Any, dict[str, Any]]] = [
         (far, {}),
         (near, {"file_scale": None}),
         (near, {"is_one_view": True}),
-        (near, {"both_partial": True}),
-    ):
-        assert place_part._calibration(one, SimpleNamespace(**{**vars(known), **what})) is not numbers
+    ]
+    for one, what in changes:
+        other: Any = SimpleNamespace(**{**vars(known), **what})
+        assert place_part._calibration(one, other) is not numbers
     assert probability(13.0, 9.0, numbers=numbers) == pytest.approx(0.45, abs=2e-3)
     assert probability(13.0, 9.0, numbers=SCORE.part.calibration) < 0.001
     assert [verdict(score, 9.0, numbers=numbers) for score in (12.0, 14.0, 17.0, 18.0)] == [
@@ -112,7 +113,7 @@ def test_less_of_a_score_is_asked_for_at_the_scale_of_the_files(
     """Where a second relaxation confirms the placement."""
     evidence = replace(PART, scale_change=0.2)
     placed = SimpleNamespace(match=np.zeros(5, dtype=int))
-    one = SimpleNamespace(
+    one: Any = SimpleNamespace(
         scale=0.7,
         score=told - scale_cost(evidence),
         evidence=evidence,
