@@ -336,6 +336,7 @@ def test_two_parts_are_placed_by_coarse_proxies_and_their_landmarks(pair, monkey
 def test_two_parts_have_a_calibration_of_their_own(small, monkeypatch, which, word):
     """Their right placements score less, and a placement that fits nowhere is sought without landmarks by the same."""
     asked, score = [], SCORE.part.calibration_of_two.middle + 2
+    numbers = PART if which == "target" else SCORE.part.calibration_of_two
     assert score < PART.middle - 2
     places, all_ = vertex_point_map(np.arange(200), small.mesh), np.ones(200)
     registered = SimpleNamespace(scale=1.0, vertices=small.mesh.vertices)
@@ -345,11 +346,11 @@ def test_two_parts_have_a_calibration_of_their_own(small, monkeypatch, which, wo
         asked.append(len(landmarks))
         # Errors at the landmarks at which they support nothing.
         far = small.mesh.vertices + np.array([0.0, 0.0, 0.09])
-        return SimpleNamespace(registration=registered, overlap=overlap, scores=(score,), margin=3.0, unguided=far)
+        placed = SimpleNamespace(registration=registered, overlap=overlap, unguided=far)
+        return SimpleNamespace(**vars(placed), scores=(score,), margin=3.0, calibration=numbers)
 
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", place)
     found = match_partial(task_of(small, small, np.array([[3, 3], [50, 50]])), which, "because")[0]
-    numbers = PART if which == "target" else SCORE.part.calibration_of_two
     assert found.confidence == pytest.approx(probability(score, 3.0, numbers=numbers), abs=1e-3)
     assert found.verdict == word
     assert asked == ([2, 0] if word == "unlikely" else [2])
@@ -364,6 +365,7 @@ def test_two_parts_are_likely_at_most_without_landmarks(small, monkeypatch, scal
         scores=(99.0,),
         margin=9.0,
         unguided=small.mesh.vertices,
+        calibration=SCORE.part.calibration_of_two,
     )
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: found)
     config = replace(SMALL, partial=Partial("both", scale))
@@ -381,7 +383,8 @@ def test_landmarks_that_a_placement_keeps_without_them_support_it(small, monkeyp
     registered = SimpleNamespace(scale=scale, vertices=vertices)
     unguided, landmark_vertices = vertices.copy(), np.array([[3, 3], [50, 50], [90, 90]])
     unguided[50] += [0.0, 0.0, 0.15]  # contradicted, so named; the others are where they belong
-    one = SimpleNamespace(registration=registered, overlap=overlap, scores=(20.0,), margin=0.0, unguided=unguided)
+    placed = SimpleNamespace(registration=registered, overlap=overlap, unguided=unguided)
+    one = SimpleNamespace(**vars(placed), scores=(20.0,), margin=0.0, calibration=numbers)
     monkeypatch.setattr("kfmaps.matching.partial.match_partial.place_part", lambda *_, **__: one)
     found = match_partial(task_of(small, small, landmark_vertices), "both", "because")[0]
     near = (scale * geodesic_distances(small.mesh, landmark_vertices[:, 1]) < SCORE.landmark_radius).any(axis=0)
