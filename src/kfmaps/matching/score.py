@@ -110,10 +110,10 @@ class PartScoring:
     """Weight of the logarithm of the deformation energy. A half of a body placed on the other half, front to back,
     differs from the right placement in nothing else."""
     w_scale: float = 3.0
-    """Largest cost of the scale of a small part: a part that shrinks fits nearly everywhere."""
+    """Largest cost of a scale that is not the usual one: a part that shrinks fits nearly everywhere."""
     other_scale: float = 0.47
-    """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.3. Right parts have up to
-    1.16 from one person to another."""
+    """:attr:`PartEvidence.scale_change` from which the scale has this cost: a factor of 1.6. Right parts have up to
+    1.16 from one person to another, and 1.3 from one species to another."""
     full_view_scale: float = 0.45
     """Scale from which the scan of one camera may show all of a whole: 21 people have 0.49 to 0.65. Less costs as the
     scale of a small part does."""
@@ -410,7 +410,7 @@ class PartEvidence:
     # Mean logarithm of the share of the other part's samples in the overlap that are more similar to a sample than its
     # place, where both shapes are parts: 0 and less.
     overlap_rank: float = PartScoring.usual_overlap_rank
-    # Absolute logarithm of the ratio of the scale of a small part to that of its file, or of one camera's scan to
+    # Absolute logarithm of the ratio of the scale of a part to that of its file, or of one camera's scan to
     # :attr:`PartScoring.full_view_scale`.
     scale_change: float = 0.0
     landmark_cost: float = 0.0  # of landmarks with errors above :attr:`PartScoring.max_landmark_error`
@@ -468,7 +468,7 @@ def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -
 
 
 def scale_cost(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
-    """Return the cost of a scale that is not the one of the files."""
+    """Return the cost of a scale that is not the usual one."""
     return numbers.w_scale * min((evidence.scale_change / numbers.other_scale) ** 2, 1.0)
 
 

@@ -133,7 +133,7 @@ def place_part(
     if any(len(proxy.vertices) < len(mesh.vertices) for proxy, mesh in zip(proxies, (part, whole), strict=True)):
         on = PartSurface(whole)
         last = refine_registration(last, proxies[0], part, on, pairs)
-    paid = found[0].evidence.landmark_cost + scale_cost(found[0].evidence)
+    paid = found[0].evidence.landmark_cost + _unit_cost(found[0], pair)
     lead, scores = margin(found, len(pairs)), [one.score + paid for one in found]
     image = _find_better_mirrored(found[0], pair) if task.may_be_mirrored else None
     if image is not None:
@@ -190,13 +190,18 @@ def _search_placements(pair: PartPair, task: PartTask, report: Callable[[float],
 def _regrow_unsure(order: list[PartCandidate], pair: PartPair) -> list[PartCandidate]:
     """Return ``order`` where its first candidate would be called "sure", else also what grows from it."""
     best, lead = order[0], margin(order, pair.part.n_landmarks)
-    word = verdict(_told_score(best), lead, numbers=_calibration(best, pair))
+    word = verdict(_told_score(best, pair), lead, numbers=_calibration(best, pair))
     return order if word == "sure" else regrow_best(order, pair)
 
 
-def _told_score(one: PartCandidate) -> float:
+def _told_score(one: PartCandidate, pair: PartPair) -> float:
     """Return the score of a candidate as if the files said nothing of its scale: it may be in another unit."""
-    return one.score + scale_cost(one.evidence)
+    return one.score + _unit_cost(one, pair)
+
+
+def _unit_cost(one: PartCandidate, pair: PartPair) -> float:
+    """Return what a candidate pays for not lying at the scale of the files; the scan of one camera may not shrink."""
+    return 0.0 if pair.is_one_view else scale_cost(one.evidence)
 
 
 def _is_in_unit(one: PartCandidate, pair: PartPair) -> bool:
@@ -239,7 +244,7 @@ def _clear_placements(pair: PartPair, placement: Placement) -> list[PartCandidat
     placement = refine_placement(pair, placement)
     found, numbers = make_candidate(placement, pair), SCORE.part
     least = numbers.early_exit_in_unit if _is_in_unit(found, pair) else numbers.early_exit_score
-    if _told_score(found) < least or found.registration.scale**2 < numbers.full_area:
+    if _told_score(found, pair) < least or found.registration.scale**2 < numbers.full_area:
         return []
     other = fit_scale(pair, try_scales(pair, [placement.scale], TRIALS[1])[0])
     apart = pair.whole.distances[placement.placed.match, other.placed.match]
