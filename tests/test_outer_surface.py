@@ -18,7 +18,7 @@ from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.connectivity import boundary_edges
 from kfmaps.geometry.face_orientation import inward_faces, turn_faces
-from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.geometry.mesh import Mesh, component_areas, surface_area, unit_area
 from kfmaps.geometry.outer_surface import (
     _is_in_touching_pieces,
     outer_surface,
@@ -27,7 +27,7 @@ from kfmaps.geometry.outer_surface import (
 )
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
-from kfmaps.shape import _repaired, prepare
+from kfmaps.shape import _are_in_the_same_pieces, _repaired, prepare, prepare_both
 
 GUARDS = ("kfmaps.geometry.outer_surface", "kfmaps.shape", "kfmaps.matching.reindexing")
 
@@ -96,6 +96,52 @@ def test_a_shape_in_pieces_keeps_its_vertices_faces_and_extent(pieces) -> None:
     assert shape.extent is not None
     np.testing.assert_allclose(shape.extent, 7 * np.sqrt(surface_area(blob(900))), rtol=0.02)
     np.testing.assert_allclose(surface_area(shape.cleaned[0].mesh), 1, rtol=1e-9)
+
+
+def moved_apart(mesh: Mesh) -> Mesh:
+    """The piece of the last vertex is moved to the left."""
+    label, _ = component_areas(mesh)
+    return Mesh(mesh.vertices - 1.5 * (label == label[-1])[:, None] * [[1.0, 0, 0]], mesh.faces)
+
+
+@pytest.mark.parametrize("is_prepared", [True, False])
+@pytest.mark.parametrize("is_first", [True, False])
+def test_of_two_shapes_in_the_same_pieces_both_are_repaired_or_none(pieces, is_first, is_prepared) -> None:
+    """A pose in which no closed surface is found is not compared with one of another topology."""
+    pair = [pieces[0], moved_apart(pieces[0])][:: 1 if is_first else -1]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        alone = [prepare(mesh, SMALL, name=name) for mesh, name in zip(pair, "ab", strict=True)]
+    assert [shape.is_outer_surface for shape in alone] == [is_first, not is_first]
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", KfmapsWarning)
+        both = prepare_both(*(alone if is_prepared else pair), config=SMALL)
+    assert str(told[-1].message).split(", so ")[0].endswith("are in the same pieces")
+    for shape, mesh in zip(both, pair, strict=True):
+        assert shape.repairs == ()
+        np.testing.assert_array_equal(shape.mesh.faces, mesh.faces)
+    untouched = both[is_first], alone[is_first]
+    if is_prepared:
+        assert untouched[0] is untouched[1]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        again = prepare_both(*both, config=SMALL)
+    assert [again[0] is both[0], again[1] is both[1]] == [True, True]
+
+
+def test_shapes_in_other_pieces_are_repaired_each_for_itself(pieces) -> None:
+    """The other one is in one piece, or its pieces are of other sizes; or both can be repaired alike."""
+    body = blob(900)
+    uneven = moved_apart(overlapping(Mesh(body.vertices - [1.0, 0, 0], body.faces))[0])
+    for other in (body, uneven):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KfmapsWarning)
+            first, second = prepare_both(pieces[0], other, SMALL)
+        assert [first.is_outer_surface, second.is_repaired] == [True, False]
+        assert not _are_in_the_same_pieces([first, second])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        assert all(shape.is_outer_surface for shape in prepare_both(pieces[0], pieces[0], SMALL))
 
 
 @pytest.mark.parametrize("is_source", [True, False])

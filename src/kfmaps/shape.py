@@ -26,7 +26,15 @@ from kfmaps.geometry.coarse_basis import coarse_basis, n_proxy_vertices
 from kfmaps.geometry.eigen.eigensolver import EXACT
 from kfmaps.geometry.floor import without_floor
 from kfmaps.geometry.holes import fill_holes
-from kfmaps.geometry.mesh import Mesh, check_mesh, mirror_mesh, surface_area, unit_area, vertex_normals
+from kfmaps.geometry.mesh import (
+    Mesh,
+    check_mesh,
+    component_areas,
+    mirror_mesh,
+    surface_area,
+    unit_area,
+    vertex_normals,
+)
 from kfmaps.geometry.outer_surface import outer_surface, without_inner_walls, without_partitions
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 from kfmaps.geometry.subdivision import is_polyhedral
@@ -48,6 +56,11 @@ _REPAIRS: _Repairs = (
     (fill_holes, "small holes are filled"),
 )
 """What is done to a cleaned mesh where it is possible, and what is told of it."""
+_OF_PIECES = {change for repair, change in _REPAIRS if repair not in (without_floor, fill_holes)}
+"""What is done to both of two shapes in the same pieces, or to none."""
+_WHOLE_AREA, _MAX_MOVED = 0.95, 0.1
+"""Share of the area above which one piece is the whole shape, and the greatest share that may be in other pieces, from
+the widest to the narrowest, than of the other shape."""
 _BALL_SUPPORT = 550  # most support points of SHOT in one ball on average
 _NORMAL_WEIGHT = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
@@ -78,6 +91,8 @@ class Shape:
     given_faces : (f, 3) int64, or None
         The faces as given, where ``mesh`` has others: through a point cloud, on the outer surface of pieces, or, after
         the given ones, in small holes.
+    repairs : tuple of str
+        What was done to the given surface, as the warning says it.
 
     Examples
     --------
@@ -95,6 +110,7 @@ class Shape:
     shot_radius: float | None = None
     extent: float | None = None
     given_faces: np.ndarray | None = None
+    repairs: tuple[str, ...] = ()
 
     __repr__ = short_repr
 
@@ -195,7 +211,11 @@ def prepare(
     so. ``mesh``: in any unit; without faces it is a point cloud. ``config``: its basis, descriptor and refinement
     settings count.
     """
-    config = config or Config()
+    return _prepare(mesh, config or Config(), name, progress, _REPAIRS)
+
+
+def _prepare(mesh: Mesh, config: Config, name: str, progress: Progress | None, possible: _Repairs) -> Shape:
+    """Return :func:`prepare`'s shape, with those of the ``possible`` repairs that can be made."""
     report = progress or (lambda _stage, _done: None)
     timer = StageTimer(lambda stage, done: report(f"{stage} of {name}", done))
     cleaned = face_outward(clean_mesh(check_mesh(mesh, name, cloud=True), specks=True))
@@ -213,14 +233,14 @@ def prepare(
     if is_cloud:
         surface, repairs = (surface_of_cloud(unit.vertices) if config.descriptors.shot else None), []
     else:
-        surface, repairs = _repaired(unit)
+        surface, repairs = _repaired(unit, possible)
     _warn_of_cleaning(cleaned, name, n_spikes, smooth is not None, repairs)
     if is_cloud and config.descriptors.shot and surface is None:
         text = (
             "no closed surface was found through the points, which are too noisy, open or have gaps. Left and "
             "right cannot be told apart: give three landmarks, or a mesh made from the points"
         )
-        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=2)
+        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=3)
     if surface is not None and surface is not unit:
         given_faces, extent = mesh.faces, extent and extent * float(np.sqrt(surface_area(surface)))
         mesh = _with_faces_of(surface, mesh, cleaned)
@@ -236,7 +256,7 @@ def prepare(
             local = _local_descriptors(unit, basis, radius, lambda d: timer.report("SHOT", min(d, 0.99)))
     radius = None if local is None else radius
     made = Mesh(unit.vertices, mesh.faces)
-    shape = Shape(made, basis, local, name, timer.seconds, laplacian, radius, extent, given_faces)
+    shape = Shape(made, basis, local, name, timer.seconds, laplacian, radius, extent, given_faces, tuple(repairs))
     if cleaned.whole:
         return shape
     mass = np.zeros(len(mesh.vertices))
@@ -356,7 +376,7 @@ def _warn_of_cleaning(cleaned: CleanedMesh, name: str, n_spikes: int, noisy: boo
     changes += ["the noise of its vertices is smoothed"] * noisy
     changes += repairs
     if changes:
-        warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=3)
+        warnings.warn(f"{name}: for the match {', '.join(changes)}; the numbering is kept", KfmapsWarning, stacklevel=4)
 
 
 def _check_size(mesh: Mesh, name: str, config: Config) -> None:
@@ -423,7 +443,8 @@ def prepare_both(
 ) -> list[Shape]:
     """Prepare both shapes, in parallel.
 
-    A :class:`Shape` is only checked against ``config``. Both shapes are checked before work begins.
+    A :class:`Shape` is only checked against ``config``, unless it is in the same pieces as the other and was repaired
+    in another way. Both shapes are checked before work begins.
     """
     named_shapes = ((source, names[0]), (target, names[1]))
     for shape, name in named_shapes:
@@ -436,5 +457,28 @@ def prepare_both(
         shape, name = item
         return prepare(shape, config, name=name, progress=progress) if isinstance(shape, Mesh) else shape
 
+    def without_repairs(item: tuple[Mesh | Shape, Shape]) -> Shape:
+        given, shape = item
+        if not left_out & set(shape.repairs):
+            return shape
+        possible = tuple(one for one in _REPAIRS if one[1] not in left_out)
+        return _prepare(given if isinstance(given, Mesh) else shape.given_mesh, config, shape.name, progress, possible)
+
     with limit_threads(config.threads), one_blas_thread():
-        return parallel(prepared, named_shapes)
+        shapes = parallel(prepared, named_shapes)
+        left_out = _OF_PIECES & (set(shapes[0].repairs) ^ set(shapes[1].repairs))
+        if not left_out or not _are_in_the_same_pieces(shapes):
+            return shapes
+        text = "are in the same pieces, so both are matched without what is possible for one of them alone"
+        first, second = (shape.name for shape in shapes)
+        warnings.warn(f"{first} and {second} {text}: {', '.join(sorted(left_out))}", KfmapsWarning, stacklevel=2)
+        return parallel(without_repairs, list(zip((source, target), shapes, strict=True)))
+
+
+def _are_in_the_same_pieces(shapes: list[Shape]) -> bool:
+    """Return whether two surfaces are in several pieces of about the same shares of the area."""
+    areas = [np.sort(component_areas(clean_mesh(shape.given_mesh, specks=True).mesh)[1])[::-1] for shape in shapes]
+    shares = np.zeros((2, max(map(len, areas))))
+    for row, values in zip(shares, areas, strict=True):
+        row[: len(values)] = values / values.sum()
+    return bool((shares[:, 0] < _WHOLE_AREA).all() and np.abs(shares[0] - shares[1]).sum() / 2 < _MAX_MOVED)

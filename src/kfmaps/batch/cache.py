@@ -22,7 +22,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
-_LAYOUT = 10  # raised when the content of entries changes
+_LAYOUT = 11  # raised when the content of entries changes
 _PLAIN = "plain"  # name of the JSON text in an entry: everything but the arrays
 
 _Record = TypeVar("_Record")

@@ -75,6 +75,8 @@ def match(
     """
     config = lower_to_size(config or Config(), source, target)
     prepared = prepare_both(source, target, config, progress=progress)
+    if any(isinstance(one, Shape) and one not in prepared for one in (source, target)):
+        shape_samples = None  # they are of other faces
     with limit_threads(config.threads):
         pair = reindexing(prepared[0], prepared[1], divided=config.search is not None)
     pairs = check_landmark_pairs(landmarks, *pair.given)
