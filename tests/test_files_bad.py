@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import warnings
 from pathlib import Path
 
 import pytest
@@ -89,7 +90,8 @@ BAD_OFF = {
     "negative": (off(FOUR + "3 0 1 2\n3 0 1 -1\n"), "from 0 to 3, got -1"),
     "half a vertex": (off(FOUR + "3 0 1 2\n3 0 1 0.5\n"), "whole vertex numbers, got 0.5"),
     "too few corners": (off(FOUR + "3 0 1 2\n4 0 1 2\n"), "line 8: expected as many corners"),
-    "an edge": (off(FOUR + "3 0 1 2\n2 0 1\n"), "line 8: expected faces with three corners or more, got 2"),
+    "edges alone": (off(FOUR + "2 1 2\n2 0 1\n"), "line 7: expected faces with three corners or more, got 2"),
+    "a point": (off(FOUR + "3 0 1 2\n1 0\n"), "line 8: expected faces with three corners or more, got 1"),
     "a negative size": (off(FOUR + "3 0 1 2\n-3 0 1 2\n"), "three corners or more, got -3"),
     "a huge size": (off(FOUR + "3 0 1 2\n4000000000 0 1 2\n"), "as many corners"),
     "an endless size": (off(FOUR + "3 0 1 2\ninf 0 1 2\n"), "corners of a face"),
@@ -109,7 +111,8 @@ BAD_OBJ = {
     "zero": ("f 0 1 2", "line 5: expected numbers from 1 to 4"),
     "out of range": ("f 1 2 5", "1 to 4, or negative ones counted back from the last, got 5"),
     "back beyond the first": ("f 1 2 -5", "got -5"),
-    "an edge": ("f 1 2 3\nf 1 2", "line 6: expected a face with three corners or more, got 2"),
+    "edges alone": ("f 1 2\nf 2 3", "line 5: expected a face with three corners or more, got 2"),
+    "a point": ("f 1 2 3\nf 1", "line 6: expected a face with three corners or more, got 1"),
     "an empty face": ("f 1 2 3\nf", "three corners or more, got 0"),
     "half a number": ("f 1 2 2.5", "whole vertex numbers, got 2.5"),
     "a word": ("f 1 2 x", "line 5: expected numbers, got 'x'"),
@@ -157,6 +160,27 @@ POINTS = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
 FACE = struct.pack("<B3i", 3, 0, 1, 2)
 TEXT = "format ascii 1.0\n"
 NUMBERS = b"0 0 0\n1 0 0\n0 1 0\n"
+
+EDGES = {
+    "a.off": off(FOUR + "2 0 3\n3 0 1 2\n2 1 3\n3 0 2 3\n", "4 4 0"),
+    "a.obj": (V + "f 1 4\nf 1 2 3\nf 2 4\nf 1 3 4\n").encode(),
+    "a.ply": ply(
+        (TEXT + XYZ + LIST).replace("vertex 3", "vertex 4").replace("face 1", "face 4"),
+        NUMBERS + b"0 1 1\n2 0 3\n3 0 1 2\n2 1 3\n3 0 2 3\n",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EDGES)
+def test_edges_among_the_faces_are_left_out_with_a_warning(tmp_path: Path, name: str) -> None:
+    """Of 820 models of furniture 22 have faces of two corners."""
+    (tmp_path / name).write_bytes(EDGES[name])
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        mesh = read_mesh(tmp_path / name)
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert any(str(one.message).endswith(f"{name}: 2 faces of two corners are left out") for one in told)
+
 
 BAD_PLY = {
     "other header": (b"plyx\n", "the word ply"),

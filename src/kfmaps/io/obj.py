@@ -10,7 +10,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, Picture, fan, picture_in, unit_colors
+from kfmaps.io.record import MeshFile, Picture, fan, has_too_few_corners, picture_in, unit_colors
 from kfmaps.io.text import (
     REPAIR,
     Rows,
@@ -112,7 +112,8 @@ def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray]:
     body, numbers = b"\n".join(lines.contents), np.array(lines.numbers, dtype=np.int64)
     at, line = split_words(body)
     sizes = np.bincount(line, minlength=len(numbers))[: len(numbers)]
-    check_lines(sizes < 3, numbers, name, "a face with three corners or more", lambda i: str(sizes[i]))
+    too_few = has_too_few_corners(sizes, name)
+    check_lines(too_few, numbers, name, "a face with three corners or more", lambda i: str(sizes[i]))
     slash = np.flatnonzero(np.frombuffer(body, dtype=np.uint8) == ord("/"))
     slashes = np.bincount(np.searchsorted(at, slash, side="right") - 1, minlength=len(at))
     rows = parse_rows(body.replace(b"//", b"/0/").replace(b"/", b" "), name, numbers)

@@ -8,7 +8,7 @@ import numpy as np
 
 from kfmaps._arrays import index_ranges, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, fan, to_bytes, unit_colors
+from kfmaps.io.record import MeshFile, fan, has_too_few_corners, to_bytes, unit_colors
 from kfmaps.io.text import REPAIR, Rows, as_table, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
@@ -51,7 +51,8 @@ def parse_off(data: bytes, name: str) -> MeshFile:
 def _faces(rows: Rows, name: str) -> np.ndarray:
     """The triangles of the face lines, (t, 3)."""
     sizes = whole_numbers(rows.values[rows.starts], f"{name}: corners of a face")
-    check_lines(sizes < 3, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
+    too_few = has_too_few_corners(sizes, name)
+    check_lines(too_few, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
     is_short, expected = sizes >= rows.counts, "as many corners as the line says"
     check_lines(is_short, rows.lines, name, expected, lambda i: f"{rows.counts[i] - 1} of {sizes[i]}")
     corners = rows.values[index_ranges(rows.starts + 1, sizes)]

@@ -10,7 +10,7 @@ import numpy as np
 
 from kfmaps._arrays import index_ranges, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, fan, to_bytes, unit_colors
+from kfmaps.io.record import MeshFile, fan, has_too_few_corners, to_bytes, unit_colors
 from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 
@@ -237,8 +237,8 @@ def _mesh_file(elements: dict[str, dict[str, _Column]], name: str) -> MeshFile:
     face = elements.get("face", {})
     column = face.get("vertex_indices", face.get("vertex_index"))
     if column is not None and column.sizes is not None:
-        if (column.sizes < 3).any():
-            i = np.flatnonzero(column.sizes < 3)[0]
+        if (too_few := has_too_few_corners(column.sizes, name)).any():
+            i = np.flatnonzero(too_few)[0]
             got = f"{column.sizes[i]} in face {i}"
             raise refuse(name, "faces with three corners or more", got, REPAIR)
         corners = whole_numbers(column.values.astype(np.float64), f"{name}: faces", "whole vertex numbers")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from kfmaps._arrays import check, index_ranges, refuse
+from kfmaps._arrays import KfmapsWarning, check, index_ranges, refuse
 from kfmaps._records import short_repr
+from kfmaps._texts import plural
 from kfmaps.geometry.mesh import Mesh
 
 
@@ -86,12 +88,25 @@ class MeshFile:
 def fan(sizes: np.ndarray) -> np.ndarray:
     """Return the triangles of polygons, each polygon as a fan around its first corner, in order.
 
-    ``sizes (p,)``: how many corners each polygon has, at least 3. Returns (t, 3): positions in the list of all corners,
-    one polygon after another.
+    ``sizes (p,)``: how many corners each polygon has; with 2 it is an edge and has no triangle. Returns (t, 3):
+    positions in the list of all corners, one polygon after another.
     """
     start = np.cumsum(sizes) - sizes
     second = index_ranges(start + 1, sizes - 2)
     return np.stack([np.repeat(start, sizes - 2), second, second + 1], axis=1)
+
+
+def has_too_few_corners(sizes: np.ndarray, name: str) -> np.ndarray:
+    """Return which of the faces of a file have too few corners, (p,) bool; ``sizes (p,)``: how many they have.
+
+    Some programs write edges as faces of two corners: among other faces they are left out, and a warning says so.
+    """
+    is_edge = sizes == 2
+    if is_edge.any() and (sizes > 2).any():
+        text = plural(int(is_edge.sum()), "face of two corners is left out", "faces of two corners are left out")
+        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=6)
+        return sizes < 2
+    return sizes < 3
 
 
 def split_polygons(flat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

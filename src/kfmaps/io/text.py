@@ -12,7 +12,7 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from kfmaps._arrays import InvalidInput, refuse
+from kfmaps._arrays import InvalidInput, KfmapsWarning, refuse
 from kfmaps._memory import check_memory
 
 REPAIR = "repair the file or export it again"
@@ -93,7 +93,7 @@ def complete_or_refuse(name: str, expected: str) -> Iterator[None]:
     """Turn any error in the block, which reads the file ``name``, into a refusal that says what was ``expected``."""
     try:
         yield
-    except (InvalidInput, MemoryError):
+    except (InvalidInput, MemoryError, KfmapsWarning):
         raise
     except Exception as error:
         got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
