@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.sparse.csgraph import dijkstra
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, KDTree
 
 from conftest import NO_FACES, blob, cloud_of, fibonacci_sphere, joined, reordered, sheet, shifted
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry import geodesics
-from kfmaps.geometry.geodesic_graph import geodesic_graph
+from kfmaps.geometry.geodesic_graph import MAX_BRIDGED, bridged_graph, geodesic_graph
 from kfmaps.geometry.geodesics import (
     _FULL_SEARCHES,
     _NEARBY,
@@ -125,6 +125,33 @@ def test_between_components_there_is_no_way() -> None:
     assert (distances[:, [0, 120, 121]].diagonal() == 0).all()
     alone = geodesic_distances(blob(120), [0])[0]
     np.testing.assert_allclose(distances[0, :120], alone, rtol=1e-6)
+
+
+def test_bridges_join_pieces_where_they_touch_and_the_others_where_they_are_nearest() -> None:
+    """Two spheres that touch, and one far away: its way leads from the nearest vertex of both."""
+    ball = fibonacci_sphere(300)
+    centres = np.array([[0, 0, 0], [2.02, 0, 0], [0, 9, 0]])
+    mesh = joined(*(shifted(ball, *centre) for centre in centres))
+    graph, before = bridged_graph(mesh), geodesic_graph(mesh, 1)
+    alone = slice(0, 300)
+    assert (graph[alone, alone] != before[alone, alone]).nnz == 0
+    extra = (graph - before).tocoo()
+    piece = np.stack(extra.coords) // 300
+    assert (piece[0] != piece[1]).all()
+    lengths = np.linalg.norm(mesh.vertices[extra.coords[0]] - mesh.vertices[extra.coords[1]], axis=1)
+    np.testing.assert_allclose(extra.data, lengths)
+    is_far = (piece == 2).any(axis=0)
+    assert is_far.sum() == 2  # one line, in both directions
+    assert set(piece[:, is_far].ravel().tolist()) == {0, 2}
+    assert (~is_far).sum() > 10
+    np.testing.assert_allclose(extra.data[is_far], KDTree(mesh.vertices[:300]).query(mesh.vertices[600:])[0].min())
+    assert np.isfinite(dijkstra(graph, indices=[0])).all()
+
+
+def test_one_piece_a_cloud_and_very_many_pieces_have_no_bridges() -> None:
+    many = joined(*(shifted(blob(20), 4.0 * i, 0, 0) for i in range(MAX_BRIDGED + 1)))
+    for mesh in (blob(200), cloud_of(blob(200)), many):
+        assert (bridged_graph(mesh) != geodesic_graph(mesh, 1)).nnz == 0
 
 
 def test_faces_without_area() -> None:

@@ -212,6 +212,12 @@ def test_a_map_whose_registration_is_refused_is_not_sure() -> None:
     assert lower_probability(None, "unchecked", 0.0, True) == (None, "unchecked")
 
 
+def test_torn_contacts_lower_the_probability() -> None:
+    most = SCORE.max_torn_contacts
+    assert lower_probability(1.0, "sure", 0.0, contacts=most) == (1.0, "sure")
+    assert lower_probability(1.0, "sure", 0.0, contacts=most + 0.01) == (SCORE.torn_contacts, "likely")
+
+
 @pytest.mark.parametrize("errors", [[0.0], [0.05, 0.058, 0.06], [0.0] * 5 + [0.2], [0.0] * 5 + [9.0], [0.3, 0.3]])
 def test_landmarks_support_a_map_by_the_area_around_them_and_their_mean_error(errors: list[float], rng) -> None:
     """The squared share of the area, not of the samples, times a logistic function; a single one has a limited say."""

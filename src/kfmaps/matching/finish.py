@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any, Literal
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, like, seed_of, to_numpy
 from kfmaps._progress import Progress, StageTimer
@@ -21,7 +22,7 @@ from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guida
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.fmap.refine import Refined
 from kfmaps.geometry.geodesics import geodesic_distances
-from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.geometry.mesh import MIRROR, Mesh, component_areas, vertex_areas
 from kfmaps.matching.candidates import FINE_FUNCTIONS
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
@@ -122,7 +123,8 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         back_map = None if back_map is None else pair.given_functional_map(back_points, back_map, back=True)
     torn_area = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
     is_refused = final.fit is not None and not final.fit.accepted
-    confidence, verdict = lower_probability(found.confidence, found.verdict, torn_area, is_refused)
+    torn_contacts = torn_contact_share(shapes[0].mesh, shapes[1].mesh, final.target_to_source)
+    confidence, verdict = lower_probability(found.confidence, found.verdict, torn_area, is_refused, torn_contacts)
     return task.result(
         final.target_to_source,
         refined.functional_map,
@@ -329,6 +331,25 @@ def torn_area_fraction(match: Match) -> float | None:
     if match.registration.report is None or match._reindexing is None:
         return None
     return low_confidence_area(match._reindexing.given[1].mesh, match.local_confidence)
+
+
+def torn_contact_share(source: Mesh, target: Mesh, points: np.ndarray) -> float:
+    """Return the share of the contacts of the target's pieces whose images are not near each other, from 0 to 1.
+
+    Where pieces that are alike are exchanged, or one is turned in its place, each fits as well, but not to the others.
+    ``points (n_t,)``: the image of each target vertex. Both meshes are of unit area.
+    """
+    label = component_areas(target)[0] if len(target.faces) else np.zeros(1)
+    if label.max() == 0:
+        return 0.0
+    n, most, least = len(target.vertices), 5000, 10  # vertices, contacts
+    some = np.arange(n) if n <= most else np.linspace(0, n - 1, most).astype(np.int64)
+    pairs = some[KDTree(target.vertices[some]).query_pairs(SCORE.contact_distance, output_type="ndarray")]
+    pairs = pairs[label[pairs[:, 0]] != label[pairs[:, 1]]]
+    if len(pairs) < least:
+        return 0.0
+    images = source.vertices[points[pairs]]
+    return float((np.linalg.norm(images[:, 0] - images[:, 1], axis=1) > SCORE.moved_distance).mean())
 
 
 def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:

@@ -15,7 +15,7 @@ from kfmaps._arrays import to_numpy
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import DIMENSIONS, DescriptorGuidance, combine_guidance, descriptor_guidance
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.geodesics import geodesic_graph
+from kfmaps.geometry.geodesic_graph import bridged_graph
 from kfmaps.matching.quality import ShapeSamples, sample_surface
 from kfmaps.shape import Shape
 
@@ -82,7 +82,7 @@ def landmark_distances(shape: Shape, samples: ShapeSamples, landmarks: np.ndarra
     """
     vertices = samples.samples.vertices
     mesh, _, rows = sample_surface(shape, np.concatenate([vertices, landmarks]))
-    distances = dijkstra(geodesic_graph(mesh, 1), indices=rows[len(vertices) :])[:, rows[: len(vertices)]]
+    distances = dijkstra(bridged_graph(mesh), indices=rows[len(vertices) :])[:, rows[: len(vertices)]]
     is_finite = np.isfinite(distances)
     farthest = distances[is_finite].max(initial=float(samples.distances.max()))
     return np.where(is_finite, distances, farthest)

@@ -19,7 +19,7 @@ from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.geometry.coarsen import CoarseProxy, coarsen
-from kfmaps.geometry.geodesic_graph import geodesic_graph
+from kfmaps.geometry.geodesic_graph import bridged_graph
 from kfmaps.geometry.geodesics import pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.orientation_operators import orientation_operators
@@ -156,9 +156,9 @@ def sample_for_scoring(shape: Shape, count: int = 1000, rng: int | np.random.Gen
     samples = spectral_samples(shape.basis, count, rng)
     first = samples.vertices[:300]  # the first of them, between which geodesic distances are compared
     mesh, functions, rows = sample_surface(shape, samples.vertices)
-    graph = geodesic_graph(mesh, 1)
+    graph = bridged_graph(mesh)
     distances = pairwise_geodesics(graph, rows[: len(first)])
-    # Separate components are as far apart as the farthest points of one.
+    # Components that are too many for bridges are as far apart as the farthest points of one.
     is_finite = np.isfinite(distances)
     farthest = distances[is_finite].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
     distances = np.where(is_finite, distances, farthest)

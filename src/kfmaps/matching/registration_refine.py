@@ -20,7 +20,7 @@ from kfmaps._arrays import NotConverged
 from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
-from kfmaps.geometry.geodesic_graph import geodesic_graph
+from kfmaps.geometry.geodesic_graph import bridged_graph
 from kfmaps.matching.candidates import FINE_FUNCTIONS, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityVertices,
@@ -152,7 +152,7 @@ def refine_by_registration(
     fine = proxies.fine
     if fine is None:
         return ranked, ()
-    graphs = geodesic_graph(proxies.source.mesh, 1), geodesic_graph(proxies.image.mesh, 1)
+    graphs = bridged_graph(proxies.source.mesh), bridged_graph(proxies.image.mesh)
     setting = RepairSetting(fine, samples, landmarks, proxies.shot_guidance, graphs)
     near, rest = (ranked[:1], ranked[1:]) if only_best else repairable(ranked, samples.source)
     repairs = _plan_repairs(setting, near, 0 if only_best else N_MATCHES)

@@ -212,6 +212,13 @@ class Scoring:
     refused_registration: float = 0.6
     """Factor of the probability of a map whose registration is refused: of seven such maps three were right, of
     416 others nine tenths (research/verdict.md)."""
+    torn_contacts: float = 0.6
+    """Factor of the probability of a map that tears more than :attr:`max_torn_contacts` of the contacts of pieces. Of
+    three such maps that were "sure" one exchanged the arms of a robot and one turned the head of a lamp."""
+    contact_distance: float = 0.03
+    """Distance, in √area, up to which two vertices of different pieces are a contact."""
+    max_torn_contacts: float = 0.15
+    """Share of the contacts whose images are farther apart than :attr:`moved_distance`; right maps have up to 0.05."""
     max_torn_area: float = 0.04
     """Share of torn area from which alternatives are refined and registered too, and a region is called doubtful."""
 
@@ -594,17 +601,18 @@ def probability_word(chance: float, numbers: Calibration = SCORE.calibration) ->
 
 
 def lower_probability(
-    chance: float | None, word: str, area: float, is_refused: bool = False
+    chance: float | None, word: str, area: float, is_refused: bool = False, contacts: float = 0.0
 ) -> tuple[float | None, str]:
     """Return the probability and the verdict of a map on all vertices, lowered by what is wrong with it.
 
     ``area``: share of the area that is torn, of which right maps that are "sure" have 5 % at most
     (research/verdict.md), or that is missing of one shape; ``is_refused``: whether the registration would have made the
-    map worse.
+    map worse; ``contacts``: share of the contacts of pieces that are torn.
     """
     if chance is None:
         return chance, word
     chance *= (1.0 - area) * (SCORE.refused_registration if is_refused else 1.0)
+    chance *= SCORE.torn_contacts if contacts > SCORE.max_torn_contacts else 1.0
     return chance, word if word == "ambiguous" else probability_word(chance)
 
 
