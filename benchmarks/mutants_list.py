@@ -73,8 +73,8 @@ MUTANTS = tuple(
         ("leaves, len(areas)) < _MAX_SEEN * n_rays", "leaves, len(areas)) > _MAX_SEEN * n_rays", "test_outer_surface"),
         ("+ _OFFSET * directions", "- _OFFSET * directions", "test_outer_surface -k partition"),
         ("repairs[:i] + repairs[i + 1 :])", "repairs[i + 1 :])", "test_outer_surface -k earlier"),
-        ("is_near = distance <= reach", "is_near = distance <= 0 * reach", "test_geodesics -k bridges"),
-        ("order = np.argsort(-distance,", "order = np.argsort(distance,", "test_geodesics -k bridges"),
+        ("distance_upper_bound=reach)", "distance_upper_bound=9 * reach)", "test_geodesics -k bridges"),
+        ("return graph + join_links(links, n)", "return graph", "test_geodesics -k bridges"),
         (
             "graph = bridged_graph(mesh)",
             "graph = __import__('kfmaps').geometry.geodesic_graph.geodesic_graph(mesh, 1)",

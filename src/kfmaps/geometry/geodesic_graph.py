@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import minimum_spanning_tree
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import blocks, check_count, index_ranges
@@ -180,11 +179,10 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
 
 
 def bridged_graph(mesh: Mesh) -> csr_array:
-    """Return :func:`geodesic_graph` of depth 1 with straight lines between the components of the mesh.
+    """Return :func:`geodesic_graph` of depth 1 with straight lines between components of the mesh that touch.
 
-    Each component is joined to those that it touches, at every vertex that is no farther from them than an edge is
-    long; and where these lines do not connect all components, the nearest vertices of others are joined. A mesh of
-    more than :data:`MAX_BRIDGED` components stays as it is.
+    Such a line joins a vertex to the nearest one of the other component where that is no farther than an edge is long.
+    A mesh of more than :data:`MAX_BRIDGED` components stays as it is.
     """
     n, graph = len(mesh.vertices), geodesic_graph(mesh, 1)
     edges = mesh_edges(mesh.faces, n)[0]
@@ -192,16 +190,11 @@ def bridged_graph(mesh: Mesh) -> csr_array:
     if len(edges) == 0 or not 1 < count <= MAX_BRIDGED:
         return graph
     reach = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1).mean()
-    gaps, ends, links = np.zeros((count, count)), np.zeros((2, count, count), dtype=np.int64), []
+    links = []
     for i in range(count - 1):
         own, others = np.flatnonzero(label == i), np.flatnonzero(label > i)
-        found = KDTree(mesh.vertices[own]).query(mesh.vertices[others])
-        distance, nearest = np.asarray(found[0]), own[np.asarray(found[1])]
-        is_near = distance <= reach
-        links.append((nearest[is_near], others[is_near], distance[is_near]))
-        order = np.argsort(-distance, kind="stable")  # of each component the nearest is written last
-        j = label[others[order]]
-        gaps[i, j], ends[0, i, j], ends[1, i, j] = distance[order], nearest[order], others[order]
-    i, j = minimum_spanning_tree(np.triu(np.maximum(gaps, np.finfo(float).tiny), 1)).nonzero()
-    links.append((ends[0, i, j], ends[1, i, j], gaps[i, j]))
+        found = KDTree(mesh.vertices[own]).query(mesh.vertices[others], distance_upper_bound=reach)
+        distance, nearest = np.asarray(found[0]), np.asarray(found[1])
+        is_near = np.isfinite(distance)
+        links.append((own[nearest[is_near]], others[is_near], distance[is_near]))
     return graph + join_links(links, n)

@@ -158,7 +158,7 @@ def sample_for_scoring(shape: Shape, count: int = 1000, rng: int | np.random.Gen
     mesh, functions, rows = sample_surface(shape, samples.vertices)
     graph = bridged_graph(mesh)
     distances = pairwise_geodesics(graph, rows[: len(first)])
-    # Components that are too many for bridges are as far apart as the farthest points of one.
+    # Components that do not touch are as far apart as the farthest points of one.
     is_finite = np.isfinite(distances)
     farthest = distances[is_finite].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
     distances = np.where(is_finite, distances, farthest)
