@@ -80,7 +80,12 @@ MUTANTS = tuple(
             "graph = __import__('kfmaps').geometry.geodesic_graph.geodesic_graph(mesh, 1)",
             "test_pieces",
         ),
-        ("label[pairs[:, 0]] != label[pairs[:, 1]]", "label[pairs[:, 0]] == label[pairs[:, 1]]", "test_pieces -k torn"),
+        (
+            "label[contacts[:, 0]] != label[contacts[:, 1]]",
+            "label[contacts[:, 0]] == label[contacts[:, 1]]",
+            "test_pieces -k torn",
+        ),
+        ("count[kept < min_kept * count]", "count[kept < count]", "test_pieces -k pose"),
         ("(set(shapes[0].repairs) ^ set(", "(set(shapes[0].repairs) | set(", "test_outer_surface -k itself"),
         ("shares[1]).sum() / 2 < _MAX_MOVED", "shares[1]).sum() / 2 < 1", "test_outer_surface -k itself"),
         ("(shares[:, 0] < _WHOLE_AREA).all()", "True", "test_outer_surface -k partition"),

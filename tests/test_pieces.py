@@ -44,8 +44,20 @@ def test_contacts_are_torn_where_pieces_are_exchanged_or_turned(pieces) -> None:
     one = torn_contact_share(pieces, pieces, turned(pieces, 1))
     both = torn_contact_share(pieces, pieces, np.where(same < 2 * N, turned(pieces, 1), turned(pieces, 2)))
     assert 0.3 < one < 0.7 < both
+    # One ball turned tears its contacts alone, half of all.
     exchanged = np.concatenate([same[:N], same[2 * N :], same[N : 2 * N]])
     assert torn_contact_share(pieces, pieces, exchanged) == 1.0
+
+
+def test_contacts_of_one_pose_beside_a_joint_are_not_torn(pieces) -> None:
+    """As where a hand touches a hip: the body and a ball still touch where they do in the other pose."""
+    same, piece = np.arange(3 * N), np.repeat([0, 1, 2], N)
+    middle, right, left = (pieces.vertices[piece == k] for k in range(3))
+    body = middle.copy()  # its middle bends up, and touches the top of a ball
+    nearest = np.argsort(np.abs(middle[:, 0]))[:40]
+    body[nearest] = right[np.argsort(-right[:, 1])[:40]] + 0.001
+    bent = Mesh(np.concatenate([body, right, left]), pieces.faces)
+    assert torn_contact_share(pieces, bent, same) == 0.0
 
 
 def test_one_piece_a_cloud_and_pieces_that_lie_apart_have_no_contacts(pieces) -> None:

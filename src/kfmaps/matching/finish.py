@@ -334,22 +334,27 @@ def torn_area_fraction(match: Match) -> float | None:
 
 
 def torn_contact_share(source: Mesh, target: Mesh, points: np.ndarray) -> float:
-    """Return the share of the contacts of the target's pieces whose images are not near each other, from 0 to 1.
+    """Return the share of the contacts between pieces of the target that are between torn pieces, from 0 to 1.
 
-    Where pieces that are alike are exchanged, or one is turned in its place, each fits as well, but not to the others.
-    ``points (n_t,)``: the image of each target vertex. Both meshes are of unit area.
+    A contact is two near vertices of two pieces. The pieces are torn where the images of hardly any of their contacts
+    are near each other, as where pieces that are alike are exchanged, or one is turned in its place. (A hand touches a
+    hip in one pose alone, but an arm and a body also where they are joined.) ``points (n_t,)``: the image of each
+    target vertex. Both meshes are of unit area.
     """
     label = component_areas(target)[0] if len(target.faces) else np.zeros(1)
     if label.max() == 0:
         return 0.0
-    n, most, least = len(target.vertices), 5000, 10  # vertices, contacts
+    n, most, least, min_kept = len(target.vertices), 5000, 10, 0.1  # vertices, contacts, share of them
     some = np.arange(n) if n <= most else np.linspace(0, n - 1, most).astype(np.int64)
-    pairs = some[KDTree(target.vertices[some]).query_pairs(SCORE.contact_distance, output_type="ndarray")]
-    pairs = pairs[label[pairs[:, 0]] != label[pairs[:, 1]]]
-    if len(pairs) < least:
+    contacts = some[KDTree(target.vertices[some]).query_pairs(SCORE.contact_distance, output_type="ndarray")]
+    contacts = contacts[label[contacts[:, 0]] != label[contacts[:, 1]]]
+    if len(contacts) < least:
         return 0.0
-    images = source.vertices[points[pairs]]
-    return float((np.linalg.norm(images[:, 0] - images[:, 1], axis=1) > SCORE.moved_distance).mean())
+    images = source.vertices[points[contacts]]
+    is_kept = np.linalg.norm(images[:, 0] - images[:, 1], axis=1) <= SCORE.moved_distance
+    pair = np.unique(np.sort(label[contacts], axis=1), axis=0, return_inverse=True)[1].ravel()
+    count, kept = np.bincount(pair), np.bincount(pair, is_kept)
+    return float(count[kept < min_kept * count].sum() / len(contacts))
 
 
 def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:

@@ -213,12 +213,12 @@ class Scoring:
     """Factor of the probability of a map whose registration is refused: of seven such maps three were right, of
     416 others nine tenths (research/verdict.md)."""
     torn_contacts: float = 0.6
-    """Factor of the probability of a map that tears more than :attr:`max_torn_contacts` of the contacts of pieces. Of
-    three such maps that were "sure" one exchanged the arms of a robot and one turned the head of a lamp."""
+    """Factor of the probability of a map that tears more than :attr:`max_torn_contacts` of the contacts of pieces, as
+    one that was "sure" and exchanged the arms of a robot."""
     contact_distance: float = 0.03
     """Distance, in √area, up to which two vertices of different pieces are a contact."""
-    max_torn_contacts: float = 0.15
-    """Share of the contacts whose images are farther apart than :attr:`moved_distance`; right maps have up to 0.05."""
+    max_torn_contacts: float = 0.25
+    """Share of the contacts that are between torn pieces; most right maps have up to 0.15, by contacts of one pose."""
     max_torn_area: float = 0.04
     """Share of torn area from which alternatives are refined and registered too, and a region is called doubtful."""
 
