@@ -85,6 +85,7 @@ MUTANTS = tuple(
             "label[contacts[:, 0]] == label[contacts[:, 1]]",
             "test_pieces -k torn",
         ),
+        ("/ order * axis).as_matrix()", "/ 2.3 * axis).as_matrix()", "test_pieces -k revolution"),
         ("count[kept < min_kept * count]", "count[kept < count]", "test_pieces -k pose"),
         ("(set(shapes[0].repairs) ^ set(", "(set(shapes[0].repairs) | set(", "test_outer_surface -k itself"),
         ("shares[1]).sum() / 2 < _MAX_MOVED", "shares[1]).sum() / 2 < 1", "test_outer_surface -k itself"),

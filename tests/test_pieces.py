@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.spatial import KDTree
+from scipy.spatial import ConvexHull, KDTree
 
 from conftest import blob, cloud_of, fibonacci_sphere, joined, shifted
 from kfmaps.config import Config
-from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching.finish import torn_contact_share
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.matching.finish import torn_contact_share, turned_by_symmetries
 from kfmaps.matching.landmark_evidence import landmark_distances
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.shape import _prepare
@@ -64,6 +64,21 @@ def test_one_piece_a_cloud_and_pieces_that_lie_apart_have_no_contacts(pieces) ->
     apart = unit_area(joined(blob(N), shifted(blob(N), 9.0, 0.0, 0.0)))
     for mesh in (unit_area(blob(N)), cloud_of(pieces), apart):
         assert torn_contact_share(mesh, mesh, np.random.default_rng(0).permutation(len(mesh.vertices))) == 0.0
+
+
+def test_pieces_of_revolution_may_be_turned() -> None:
+    """An egg of 15 sides beside a body: a third of a turn moves it by √3 of its radius. An egg alone has no pieces."""
+    angle, height = np.meshgrid(np.arange(15) * 2 * np.pi / 15, np.linspace(-0.95, 0.95, 12))
+    radius = np.sqrt(1.0 - height**2) * (1.0 + 0.2 * height)
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), 1.5 * height], axis=-1).reshape(-1, 3)
+    egg, body = Mesh(points, ConvexHull(points).simplices.astype(np.int64)), blob(N)
+    both = joined(body, shifted(egg, 9.0, 0.0, 0.0))
+    scale, share = np.sqrt(surface_area(both)), surface_area(egg) / surface_area(both)
+    assert turned_by_symmetries(unit_area(both)) == pytest.approx(
+        share * np.sqrt(3.0) * radius.mean() / scale, rel=1e-6
+    )
+    assert turned_by_symmetries(unit_area(egg)) == 0.0
+    assert turned_by_symmetries(unit_area(joined(body, shifted(body, 9.0, 0.0, 0.0)))) == 0.0
 
 
 def test_distances_between_pieces_tell_which_touch(pieces) -> None:

@@ -212,10 +212,8 @@ def test_a_map_whose_registration_is_refused_is_not_sure() -> None:
     assert lower_probability(None, "unchecked", 0.0, True) == (None, "unchecked")
 
 
-def test_torn_contacts_lower_the_probability() -> None:
-    most = SCORE.max_torn_contacts
-    assert lower_probability(1.0, "sure", 0.0, contacts=most) == (1.0, "sure")
-    assert lower_probability(1.0, "sure", 0.0, contacts=most + 0.01) == (SCORE.torn_contacts, "likely")
+def test_loose_pieces_lower_the_probability() -> None:
+    assert lower_probability(1.0, "sure", 0.0, is_loose=True) == (SCORE.loose_pieces, "likely")
 
 
 @pytest.mark.parametrize("errors", [[0.0], [0.05, 0.058, 0.06], [0.0] * 5 + [0.2], [0.0] * 5 + [9.0], [0.3, 0.3]])

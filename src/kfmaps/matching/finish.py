@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import product
 from typing import Any, Literal
 
 import numpy as np
 from scipy.spatial import KDTree
+from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import Array, like, seed_of, to_numpy
 from kfmaps._progress import Progress, StageTimer
@@ -124,7 +126,8 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     torn_area = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
     is_refused = final.fit is not None and not final.fit.accepted
     torn_contacts = torn_contact_share(shapes[0].mesh, shapes[1].mesh, final.target_to_source)
-    confidence, verdict = lower_probability(found.confidence, found.verdict, torn_area, is_refused, torn_contacts)
+    is_loose = torn_contacts > SCORE.max_torn_contacts or turned_by_symmetries(shapes[0].mesh) > SCORE.max_turned
+    confidence, verdict = lower_probability(found.confidence, found.verdict, torn_area, is_refused, is_loose)
     return task.result(
         final.target_to_source,
         refined.functional_map,
@@ -355,6 +358,30 @@ def torn_contact_share(source: Mesh, target: Mesh, points: np.ndarray) -> float:
     pair = np.unique(np.sort(label[contacts], axis=1), axis=0, return_inverse=True)[1].ravel()
     count, kept = np.bincount(pair), np.bincount(pair, is_kept)
     return float(count[kept < min_kept * count].sum() / len(contacts))
+
+
+def turned_by_symmetries(mesh: Mesh) -> float:
+    """Return how far the vertices of a mesh in pieces move on average where each is turned onto itself, in √area.
+
+    Pieces of revolution, and those of two or more equal sides, may lie in several ways, between which little
+    decides. Of a mesh in one piece, whose near-symmetries are compared as a whole, it is 0. ``mesh``: of unit area.
+    """
+    label, areas = component_areas(mesh) if len(mesh.faces) else (np.zeros(0), np.zeros(1))
+    return sum(float(areas[i]) * _turned(mesh.vertices[label == i]) for i in np.flatnonzero(areas) if len(areas) > 1)
+
+
+def _turned(vertices: np.ndarray) -> float:
+    """Return the greatest mean distance by which a part of a turn moves ``vertices (n, 3)`` onto themselves, or 0."""
+    orders, most, max_gap = (2, 3, 4, 5, 6, 7), 1000, 0.01  # max_gap: of the largest distance from the centre
+    centred = vertices - vertices.mean(axis=0)
+    axes = np.linalg.eigh(centred.T @ centred)[1].T
+    tree, some = KDTree(centred), centred[:: 1 + len(centred) // most]
+    max_distance, moved = max_gap * np.linalg.norm(centred, axis=1).max(), 0.0
+    for axis, order in product(axes, orders):
+        images = some @ Rotation.from_rotvec(2 * np.pi / order * axis).as_matrix()
+        if np.asarray(tree.query(images)[0]).mean() <= max_distance:
+            moved = max(moved, float(np.linalg.norm(images - some, axis=1).mean()))
+    return moved
 
 
 def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:

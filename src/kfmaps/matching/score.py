@@ -212,9 +212,11 @@ class Scoring:
     refused_registration: float = 0.6
     """Factor of the probability of a map whose registration is refused: of seven such maps three were right, of
     416 others nine tenths (research/verdict.md)."""
-    torn_contacts: float = 0.6
+    loose_pieces: float = 0.6
     """Factor of the probability of a map that tears more than :attr:`max_torn_contacts` of the contacts of pieces, as
-    one that was "sure" and exchanged the arms of a robot."""
+    one that was "sure" and exchanged the arms of a robot, or whose pieces may be turned by :attr:`max_turned`."""
+    max_turned: float = 0.1
+    """Mean distance, in √area, by which symmetries of pieces may move the vertices."""
     contact_distance: float = 0.03
     """Distance, in √area, up to which two vertices of different pieces are a contact."""
     max_torn_contacts: float = 0.25
@@ -601,18 +603,18 @@ def probability_word(chance: float, numbers: Calibration = SCORE.calibration) ->
 
 
 def lower_probability(
-    chance: float | None, word: str, area: float, is_refused: bool = False, contacts: float = 0.0
+    chance: float | None, word: str, area: float, is_refused: bool = False, is_loose: bool = False
 ) -> tuple[float | None, str]:
     """Return the probability and the verdict of a map on all vertices, lowered by what is wrong with it.
 
     ``area``: share of the area that is torn, of which right maps that are "sure" have 5 % at most
     (research/verdict.md), or that is missing of one shape; ``is_refused``: whether the registration would have made the
-    map worse; ``contacts``: share of the contacts of pieces that are torn.
+    map worse; ``is_loose``: whether pieces may be exchanged or turned.
     """
     if chance is None:
         return chance, word
     chance *= (1.0 - area) * (SCORE.refused_registration if is_refused else 1.0)
-    chance *= SCORE.torn_contacts if contacts > SCORE.max_torn_contacts else 1.0
+    chance *= SCORE.loose_pieces if is_loose else 1.0
     return chance, word if word == "ambiguous" else probability_word(chance)
 
 
