@@ -43,8 +43,7 @@ def test_contacts_are_torn_where_pieces_are_exchanged_or_turned(pieces) -> None:
     assert torn_contact_share(pieces, pieces, same) == 0.0
     one = torn_contact_share(pieces, pieces, turned(pieces, 1))
     both = torn_contact_share(pieces, pieces, np.where(same < 2 * N, turned(pieces, 1), turned(pieces, 2)))
-    assert 0.3 < one < 0.7 < both
-    # One ball turned tears its contacts alone, half of all.
+    assert 0.3 < one < 0.7 < both  # one ball has half of the contacts
     exchanged = np.concatenate([same[:N], same[2 * N :], same[N : 2 * N]])
     assert torn_contact_share(pieces, pieces, exchanged) == 1.0
 
